@@ -56,7 +56,7 @@ std::optional<double> service_left_of(const Execution& execution, std::size_t go
 GoalsLeft goals_left(const core::Robot& robot, const Execution& execution, double progress, double at) {
   const Actions& actions = execution.actions;
   core::Robot past = robot;
-  past.committed = actions_until(actions, progress);
+  past.committed = executed_until(actions, progress);
   const std::size_t visited_by_plan = core::itinerary_of(past).first_goal;
   if (past.committed_until() < progress) {
     const core::Pose pose = past.committed_end();
@@ -201,11 +201,17 @@ bool drives(const core::Robot& robot, const Execution& execution, const Progress
   return index > 0 ? goes_on(actions[index - 1], actions[index]) : !robot.committed.empty();
 }
 
+bool needs_time_to_stop(const core::Robot& robot) {
+  return robot.linear_inertia().any() || robot.angular_inertia().any();
+}
+
 /// What it cannot leave out of this remainder.
 Actions braking_in(const Remainder& rest, const core::Robot& robot, const Execution& execution,
                    const Located& located) {
-  const bool brakes =
-      execution.stop_distance > 0.0 && !located.is_elsewhere && drives(robot, execution, located.progress);
+  if (located.is_elsewhere || rest.actions.empty()) return {};
+  // With a profile, the robot brakes by itself.
+  if (rest.actions.front().profile) return braked(rest.actions, 0.0);
+  const bool brakes = execution.stop_distance > 0.0 && drives(robot, execution, located.progress);
   return brakes ? driven_until(rest.actions, execution.stop_distance) : Actions();
 }
 
@@ -237,7 +243,12 @@ Course usual_course(const core::Robot& robot, const Execution& execution, const 
                     const Moment& moment) {
   Course course{remainder_of(robot, execution, located, moment)};
   const double stands_from = standing_from(course.rest, robot, execution, located);
+  // It begins to brake at the horizon of commitment.
   double until = horizon(course.rest.actions, moment);
+  if (needs_time_to_stop(robot)) {
+    const Actions to_rest = braked(course.rest.actions, until);
+    if (!to_rest.empty()) until = std::max(until, to_rest.back().t_end);
+  }
   if (execution.hold) {
     hold(course.rest, stands_from, *execution.hold);
     until = *execution.hold;
@@ -271,7 +282,7 @@ Course standing_course(const core::Robot& robot, const Execution& execution, con
 
 /// What this robot cannot leave out.
 Actions braking_of(const core::Robot& robot, const Execution& execution, const Moment& moment) {
-  if (execution.stop_distance <= 0.0) return {};
+  if (execution.stop_distance <= 0.0 && !needs_time_to_stop(robot)) return {};
   const Located located = locate(robot, execution, moment);
   const Remainder rest = is_released(execution) && !located.is_elsewhere
                              ? released_rest(robot, execution, moment).rest
@@ -296,7 +307,7 @@ core::Robot advanced(const core::Robot& robot, const Execution& execution, const
   if (!execution.goals) align_service(next, rest);
   const bool counts_age = moment.has_horizon && next.goal && !execution.goals;
 
-  next.committed = actions_until(rest.actions, course.committed_until);
+  next.committed = stopped_by(rest.actions, course.committed_until);
   next.goal_age = counts_age && !core::has_arrived(next) ? left.age : 0.0;
   next.previous.reset();
   const bool goes_on = execution.planned && !located.is_elsewhere && !execution.goals;
@@ -339,9 +350,8 @@ Place place_of(const core::Robot& robot, const Execution& execution, const Momen
   const Progress progress = locate(robot, execution, moment).progress;
   if (progress.action == actions.size()) return actions.empty() ? Place{} : Place{actions.size() - 1, 1.0};
   const Action& action = actions[progress.action];
-  const double duration = action.t_end - action.t_start;
-  const double done = duration > 0.0 ? (progress.t - action.t_start) / duration : 0.0;
-  return {progress.action, std::clamp(done, 0.0, 1.0)};
+  const bool takes_time = action.t_end > action.t_start;
+  return {progress.action, takes_time ? share_at(action, progress.t) : 0.0};
 }
 
 std::vector<double> margins_of(const std::vector<core::Robot>& robots,

@@ -2,8 +2,8 @@
 
 // The fleet at a later moment of its plan. All poses are in the client's world, so that no number changes
 // that the moment does not change: what a robot executes, seen from that moment (timeline.cpp), what
-// is released of it already (released.cpp), the robots of the next request (advance.cpp), and commitments
-// that end where robots may stay (clear_commitments.cpp).
+// is released of it already (released.cpp), how robots brake that need time to stop (inertia.cpp), the robots
+// of the next request (advance.cpp), and commitments that end where robots may stay (clear_commitments.cpp).
 
 #include <cstddef>
 #include <optional>
@@ -167,11 +167,41 @@ ReleasedRest released_rest(const core::Robot& robot, const Execution& execution,
 /// later; after a wait if they end earlier. Those of an invalid plan may overlap in time.
 void append(std::vector<core::Action>& actions, const std::vector<core::Action>& following);
 
-/// The actions until `t`, on the clock of the actions; one under way is cut there.
-std::vector<core::Action> actions_until(const std::vector<core::Action>& actions, double t);
+/// What has been executed at `t`, on the clock of the actions; one under way is cut there.
+std::vector<core::Action> executed_until(const std::vector<core::Action>& actions, double t);
 
-/// All actions, of which one under way at `t` becomes two.
+/// The actions of a robot that stands from `t` on: one under way is cut there. A robot that needs time to
+/// stop brakes before `t`; one that cannot any more brakes from the first action on, and stands later. A
+/// rotation with a profile that is under way at t = 0 is whole, and a later one is left out.
+std::vector<core::Action> stopped_by(const std::vector<core::Action>& actions, double t);
+
+/// The actions of a robot that begins to brake at `t`. Those that it has not begun then are left out.
+std::vector<core::Action> braked(const std::vector<core::Action>& actions, double t);
+
+/// Goes on after the first actions, which stopped_by() has left of all of them, to the end of these; later if
+/// the robot has to start again.
+std::vector<core::Action> resumed_after(const std::vector<core::Action>& stopped,
+                                        const std::vector<core::Action>& actions);
+
+/// All actions, of which one under way at `t` becomes two: the robot stands at `t`, see stopped_by().
 std::vector<core::Action> split_at(const std::vector<core::Action>& actions, double t);
+
+/// The share of an action, in [0, 1], that is covered at a time within it; and the inverse.
+double share_at(const core::Action& action, double t);
+double time_at_share(const core::Action& action, double share);
+
+/// The parts of an action before and after a time within it. A part with a profile begins, or ends, at the
+/// speed that the robot has then.
+core::Action part_until(core::Action action, double t);
+core::Action part_from(core::Action action, double t);
+
+/// One past the last of the actions from an index on that follow each other at speed.
+std::size_t end_of_chain(const std::vector<core::Action>& actions, std::size_t first);
+
+/// Drives actions that follow each other at speed, from `t` and a speed on, as fast as their cruise speeds
+/// allow, to rest. A speed from which the robot could not stop in time is taken for the greatest from which
+/// it can.
+std::vector<core::Action> driven_from(std::vector<core::Action> chain, double t, double speed);
 
 /// Puts a wait, from a time at which the robot stands to another one, before the rest of the actions, which
 /// it delays, except for the wait under way. A service under way goes on, and is told as that.

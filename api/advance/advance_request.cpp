@@ -10,11 +10,13 @@
 
 #include "api/advance/acceptable.h"
 #include "api/json/json_writer.h"
+#include "api/request/fleet/parse_actions.h"
 #include "api/request/fleet/parse_obstacles.h"
 #include "api/request/fleet/parse_plans.h"
 #include "api/request/fleet/parse_robots.h"
 #include "api/request/parse_body.h"
 #include "api/request/parse_request.h"
+#include "api/response/write_response.h"
 #include "api/request/ranges.h"
 #include "core/geometry/angle.h"
 #include "core/model/drive_zones.h"
@@ -188,6 +190,10 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
   for (core::RobotPlan& plan : parse_plans(root.require("plans"), fleet.robots, WorldFrame{})) {
     read.executions[plan.robot].actions = std::move(plan.actions);
     read.executions[plan.robot].planned = true;
+    // Of an invalid plan, what the robot does is as good as measured.
+    for (core::Action& action : read.executions[plan.robot].actions) {
+      if (action.profile && !profile_fits(action)) action.profile.reset();
+    }
   }
   if (!read.request || root.fault_count() > 0 || stop.met()) return std::nullopt;
   std::size_t corners = fleet.zones.size();
@@ -251,6 +257,7 @@ void write_actions(JsonWriter& json, std::string_view key, const std::vector<cor
     write_pose(json, "to", action.to);
     if (action.goal) json.member("goal", *action.goal);
     if (action.reverse) json.member("reverse", true);
+    if (action.profile) write_profile(json, *action.profile);
     json.end_object();
   }
   json.end_array();

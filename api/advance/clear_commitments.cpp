@@ -149,7 +149,11 @@ class Clearing {
     const auto at_t =
         std::find_if(mine.begin(), mine.end(), [&](const Piece& piece) { return t < piece.end; });
     stop_.met_after(kWorkOfAPiece * (mine.size() + pieces_[other].size()));
-    const Piece stay{t, mine.back().end, at_t->at(t), {0.0, 0.0}, at_t->radius};
+    Piece stay{t, mine.back().end, at_t->at(t), {0.0, 0.0}, at_t->radius};
+    if (robots_[robot].linear_inertia().any()) {
+      const Actions stopped = stopped_by(robots_[robot].committed, t);
+      stay.from = stopped.empty() ? robots_[robot].start.position : stopped.back().to.position;
+    }
     const double margin = this->margin(robot, other) - kTouch;
     return std::none_of(pieces_[other].begin(), pieces_[other].end(), [&](const Piece& piece) {
       return first_overlap(piece, stay, piece.radius + stay.radius + margin).has_value();
@@ -221,7 +225,7 @@ class Clearing {
     stop_.met_after(kWorkOfAPiece * pieces_[index].size());
     if (!shortens(index, t)) return;
     if (t < kNothing) t = 0.0;
-    robot.committed = actions_until(robot.committed, t);
+    robot.committed = stopped_by(robot.committed, t);
     if (robot.previous) robot.previous = split_at(*robot.previous, t);
     pieces_[index] = committed_pieces(robot);
     if (waits_[index]) return;

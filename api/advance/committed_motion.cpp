@@ -13,6 +13,13 @@ namespace fleetplan::api {
 
 using core::Position;
 
+namespace {
+
+/// Metres: two disks that come nearer by less do not; far above rounding.
+constexpr double kNearer = 1e-9;
+
+}  // namespace
+
 std::vector<Piece> committed_pieces(const core::Robot& robot) {
   std::vector<core::RadiusStep> steps;
   if (core::changes_radius(robot)) {
@@ -38,6 +45,13 @@ std::vector<Piece> committed_pieces(const core::Robot& robot) {
     const double duration = action.t_end - action.t_start;
     const Position path = action.to.position - action.from.position;
     const Position velocity = duration > 0.0 ? Position(path / duration) : Position(0.0, 0.0);
+    if (action.profile && path.squaredNorm() > 0.0 && duration > 0.0) {
+      const core::TimedSegment move{{action.from.position, action.to.position}, action.t_start, action.t_end};
+      for (const core::TimedSegment& phase : core::phases(move, *action.profile)) {
+        add({phase.t_start, phase.t_end, phase.path.from, phase.velocity(), 0.0, false, phase.ramp});
+      }
+      continue;
+    }
     add({action.t_start, action.t_end, action.from.position, velocity});
   }
   add({robot.committed_until(),
@@ -52,6 +66,11 @@ std::optional<double> first_overlap(const Piece& a, const Piece& b, double dista
   const double end = std::min(a.end, b.end);
   if (begin > end) return std::nullopt;
   const Position apart = a.at(begin) - b.at(begin);
+  if (a.ramp != 0.0 || b.ramp != 0.0) {
+    // Disks that are too near already may go on, but not come nearer.
+    const auto met = core::overlap(a.disk(), b.disk(), std::min(distance, apart.norm() - kNearer));
+    return met && met->begin < end ? std::optional(met->begin) : std::nullopt;
+  }
   const Position velocity = a.velocity - b.velocity;
   const double closing = apart.dot(velocity);
   if (closing >= 0.0) return std::nullopt;

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "core/geometry/disk_motion.h"
 #include "core/geometry/position.h"
 #include "core/model/action.h"
 #include "core/model/robot.h"
@@ -23,11 +24,23 @@ struct Piece {
   double begin;
   double end;
   core::Position from;
-  core::Position velocity;
-  double radius = 0.0;  // of the bare disk
-  bool grows = false;   // it is smaller before
+  core::Position velocity;  // the mean
+  double radius = 0.0;      // of the bare disk
+  bool grows = false;       // it is smaller before
+  double ramp = 0.0;        // see core::TimedSegment
 
-  core::Position at(double t) const { return from + velocity * (t - begin); }
+  core::Position at(double t) const {
+    return ramp == 0.0 ? core::Position(from + velocity * (t - begin)) : disk().at(t);
+  }
+  core::MovingDisk disk() const {
+    core::MovingDisk disk;
+    disk.from = from;
+    disk.velocity = velocity;
+    disk.t_start = begin;
+    disk.t_end = end;
+    disk.ramp = ramp;
+    return disk;
+  }
   bool moves() const { return velocity.squaredNorm() > 0.0; }
 };
 

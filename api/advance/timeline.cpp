@@ -58,13 +58,12 @@ double fraction(const Action& action, const Pose& pose) {
 
 /// The planned time at which the robot is where it was measured, if that is on the path of the action.
 std::optional<double> time_of(const Action& action, const Pose& pose, double at, double tolerance) {
-  const double duration = action.t_end - action.t_start;
   if (action.type == Action::Type::translate) {
     const double along = fraction(action, pose);
     const core::Position nearest = action.from.position + along * (action.to.position - action.from.position);
     const bool is_near = (nearest - pose.position).norm() <= tolerance &&
                          core::angle_between(action.from.theta, pose.theta) <= tolerance;
-    return is_near ? std::optional(action.t_start + along * duration) : std::nullopt;
+    return is_near ? std::optional(time_at_share(action, along)) : std::nullopt;
   }
   if ((action.from.position - pose.position).norm() > tolerance) return std::nullopt;
   const double left = core::rotation_between(pose.theta, action.to.theta);
@@ -76,7 +75,7 @@ std::optional<double> time_of(const Action& action, const Pose& pose, double at,
   const double done = whole != 0.0 ? 1.0 - left / whole : 1.0;
   const double slack = whole != 0.0 ? tolerance / std::abs(whole) : 0.0;
   if (done < -slack || done > 1.0 + slack) return std::nullopt;
-  return action.t_start + std::clamp(done, 0.0, 1.0) * duration;
+  return time_at_share(action, std::clamp(done, 0.0, 1.0));
 }
 
 /// The duration of an action with another length, or angle, at its planned speed and no faster than the
@@ -88,25 +87,33 @@ double scaled(double duration, double planned, double amount, double speed) {
 
 /// After a translation along another line than planned, the next rotation begins with that heading; if none
 /// follows, one turns the robot to its planned heading.
-void turn_back(Actions& driven, Actions& following, double planned_heading, double angular_speed) {
+void turn_back(Actions& driven, Actions& following, double planned_heading, const core::Robot& robot) {
+  const double angular_speed = robot.angular_speed;
+  const core::Inertia inertia = robot.angular_inertia();
   const Action& last = driven.back();
   if (!following.empty() && following.front().type == Action::Type::rotate) {
     Action& next = following.front();
     const double planned_turn = std::abs(turn(next));
     const double duration = next.t_end - next.t_start;
     next.from.theta = last.to.theta;
-    const double longer =
-        scaled(duration, planned_turn, std::abs(turn(next)), angular_speed) - std::max(0.0, duration);
+    double turned = scaled(duration, planned_turn, std::abs(turn(next)), angular_speed);
+    if (next.profile) {
+      next.profile = core::fastest_profile(std::abs(turn(next)), next.profile->cruise, inertia);
+      turned = core::duration(*next.profile, std::abs(turn(next)));
+      next.t_end = next.t_start + turned;
+    }
+    const double longer = turned - std::max(0.0, duration);
     if (longer > 0.0) {
-      next.t_end += longer;
+      if (!next.profile) next.t_end += longer;
       delay(following, 1, longer);
     }
     return;
   }
   const double angle = core::angle_between(last.to.theta, planned_heading);
   if (angle <= core::kSameHeading) return;
-  const double end = last.t_end + angle / angular_speed;
+  const double end = last.t_end + inertia.time(angle, angular_speed);
   driven.push_back({Action::Type::rotate, last.t_end, end, last.to, {last.to.position, planned_heading}});
+  if (inertia.any()) driven.back().profile = core::fastest_profile(angle, angular_speed, inertia);
 }
 
 /// The heading of a robot that drives along a path; backwards if it has planned to.
@@ -141,15 +148,26 @@ std::optional<Action> continued(const core::Robot& robot, Action action, const P
   return left > kDone ? std::optional(action) : std::nullopt;
 }
 
-/// The action under way continued from a pose, and the others after it.
+/// Drives the first action, and those that follow it at speed, from this speed on.
+void go_on_at(double speed, Actions& driven, Actions& following) {
+  Actions chain = driven;
+  chain.insert(chain.end(), following.begin(), following.end());
+  chain.resize(end_of_chain(chain, 0));
+  following.erase(following.begin(), following.begin() + static_cast<std::ptrdiff_t>(chain.size() - 1));
+  driven = driven_from(std::move(chain), 0.0, speed);
+}
+
+/// The action under way continued from a pose, and the others after it. `speed`: of the robot, if the action
+/// has a profile.
 Remainder continued_from(const core::Robot& robot, const Pose& pose, const Action& planned, Actions following,
-                         double left_of_wait) {
+                         double left_of_wait, double speed) {
   Remainder rest{planned.to, {}};
   if (const auto action = continued(robot, planned, pose, left_of_wait)) {
     rest.start = action->from;
     rest.actions.push_back(*action);
+    if (action->profile) go_on_at(speed, rest.actions, following);
     if (planned.type == Action::Type::translate) {
-      turn_back(rest.actions, following, planned.to.theta, robot.angular_speed);
+      turn_back(rest.actions, following, planned.to.theta, robot);
     }
   }
   append(rest.actions, following);
@@ -164,6 +182,11 @@ double wait_left(const core::Robot& robot, const Action& wait, double t, std::op
   const double begin = is_service ? std::min(robot.goal_at(*wait.goal).not_before, wait.t_end) : 0.0;
   const double left = service_left.value_or(wait.t_end - std::max(t, begin));
   return t < begin ? std::max(0.0, begin - at) + left : left;
+}
+
+double planned_speed(const Action& action, double t) {
+  if (!action.profile) return 0.0;
+  return core::speed_after(*action.profile, action.t_end - action.t_start, t - action.t_start);
 }
 
 /// The last of the actions from this one on that go on with the same service.
@@ -202,7 +225,8 @@ void append(Actions& actions, const Actions& following) {
 
 Pose pose_at(const Action& action, double t) {
   const double duration = action.t_end - action.t_start;
-  const double left = duration > 0.0 ? std::clamp((action.t_end - t) / duration, 0.0, 1.0) : 0.0;
+  double left = duration > 0.0 ? std::clamp((action.t_end - t) / duration, 0.0, 1.0) : 0.0;
+  if (action.profile) left = 1.0 - share_at(action, t);
   if (left == 1.0) return action.from;
   Pose pose = action.to;
   if (action.type == Action::Type::translate) {
@@ -236,8 +260,8 @@ std::optional<Progress> measured_progress(const core::Robot& robot, const Action
 
 Progress reported_progress(const Actions& actions, const ReportedState& reported) {
   const auto [action, fraction] = reported.place;
+  if (!reported.service_left) return {action, time_at_share(actions[action], fraction)};
   const double begin = actions[action].t_start;
-  if (!reported.service_left) return {action, begin + fraction * (actions[action].t_end - begin)};
   return {action, *reported.service_left > kDone ? begin : actions[end_of_service(actions, action)].t_end};
 }
 
@@ -260,7 +284,7 @@ Remainder remainder(const core::Robot& robot, const Actions& actions, double at)
   const std::size_t under_way = planned_progress(actions, at).action;
   Remainder rest{planned_pose(robot, actions, at), {}};
   if (under_way == actions.size()) return rest;
-  Action action = actions[under_way];
+  Action action = part_from(actions[under_way], std::max(at, actions[under_way].t_start));
   action.t_start = 0.0;
   action.t_end -= at;
   action.from = rest.start;
@@ -274,7 +298,7 @@ Remainder remainder_of_measured(const core::Robot& robot, const Actions& actions
   if (progress.action == actions.size()) return remainder(robot, actions, at);
   const Action& planned = actions[progress.action];
   return continued_from(robot, pose, planned, shifted(actions, progress.action + 1, at),
-                        std::max(0.0, planned.t_end - at));
+                        std::max(0.0, planned.t_end - at), planned_speed(planned, progress.t));
 }
 
 Remainder remainder_of_reported(const core::Robot& robot, const Execution& execution,
@@ -282,10 +306,12 @@ Remainder remainder_of_reported(const core::Robot& robot, const Execution& execu
   const Actions& actions = execution.actions;
   const Action& planned = actions[progress.action];
   const auto& service_left = execution.reported->service_left;
+  const auto& speed = execution.reported->speed;
   const std::size_t last = service_left ? end_of_service(actions, progress.action) : progress.action;
   return continued_from(robot, execution.measured.value_or(pose_at(planned, progress.t)), planned,
                         shifted(actions, last + 1, at),
-                        wait_left(robot, planned, progress.t, service_left, at));
+                        wait_left(robot, planned, progress.t, service_left, at),
+                        speed ? std::abs(*speed) : planned_speed(planned, progress.t));
 }
 
 bool goes_on(const Action& action, const Action& next) {
@@ -305,37 +331,13 @@ Actions driven_until(const Actions& actions, double metres) {
     metres -= whole;
     driven.push_back(action);
     if (share == 1.0) continue;
-    driven.back().t_end = action.t_start + share * (action.t_end - action.t_start);
+    driven.back().t_end = time_at_share(action, share);
     driven.back().to = pose_at(action, driven.back().t_end);
   }
   return driven;
 }
 
-Actions actions_until(const Actions& actions, double t) {
-  Actions done;
-  for (const Action& action : actions) {
-    if (action.t_start >= t - kDone) break;
-    done.push_back(action);
-    if (action.t_end <= t + kDone) continue;
-    done.back().to = pose_at(action, t);
-    done.back().t_end = t;
-  }
-  return done;
-}
-
-Actions split_at(const Actions& actions, double t) {
-  Actions split = actions_until(actions, t);
-  const bool is_cut = !split.empty() && split.back().t_end < actions[split.size() - 1].t_end;
-  const auto next = actions.begin() + static_cast<std::ptrdiff_t>(split.size());
-  if (is_cut) {
-    Action later = *std::prev(next);
-    later.t_start = split.back().t_end;
-    later.from = split.back().to;
-    split.push_back(later);
-  }
-  split.insert(split.end(), next, actions.end());
-  return split;
-}
+Actions split_at(const Actions& actions, double t) { return resumed_after(stopped_by(actions, t), actions); }
 
 void hold(Remainder& rest, double from, double until) {
   if (until < from) return;

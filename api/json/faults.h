@@ -41,6 +41,7 @@ inline constexpr const char* kStartsOverlap = "starts_overlap";
 inline constexpr const char* kGoalsOverlap = "goals_overlap";
 inline constexpr const char* kDiscontinuity = "discontinuity";  // committed and previous actions
 inline constexpr const char* kSpeed = "speed";                  // faster than possible
+inline constexpr const char* kProfile = "profile";              // of speed, which does not fit its action
 inline constexpr const char* kCommittedCollision = "committed_collision";
 inline constexpr const char* kCommittedInZone = "committed_in_zone";
 inline constexpr const char* kDependency = "dependency";     // dependencies of other plans

@@ -94,7 +94,11 @@ void join_actions(const JsonReader& member, const std::vector<core::Robot>& robo
   auto plan = plans.begin();
   // Bounded: items are read until the Work ends.
   for (const JsonReader item : member.array().items()) {
-    ActionChain chain({robots[plan->robot].start, std::nullopt, std::nullopt});
+    const core::Robot& robot = robots[plan->robot];
+    ActionsOwner owner{robot.start, std::nullopt, std::nullopt};
+    owner.linear_inertia = robot.linear_inertia();
+    owner.angular_inertia = robot.angular_inertia();
+    ActionChain chain(owner);
     auto action = plan->actions.begin();
     for (const JsonReader part : item.find("actions").array().items()) {
       *action = chain.append(*action, part);
@@ -103,6 +107,21 @@ void join_actions(const JsonReader& member, const std::vector<core::Robot>& robo
     plan->cost = plan->actions.empty() ? 0.0 : plan->actions.back().t_end;
     ++plan;
   }
+}
+
+/// Robots are simulated at the mean speed of each action.
+void leave_out_profiles(SimulateRequest& request) {
+  bool has_profiles = false;
+  // Bounded: the actions that were read.
+  for (core::RobotPlan& plan : request.plans) {
+    for (core::Action& action : plan.actions) {
+      has_profiles = has_profiles || action.profile.has_value();
+      action.profile.reset();
+    }
+  }
+  if (!has_profiles) return;
+  request.warnings.emplace_back(
+      "Changes of speed are not simulated: each action takes its planned time, at its mean speed.");
 }
 
 void parse_policy(const JsonReader& root, SimulateRequest& request) {
@@ -205,6 +224,7 @@ Result<SimulateRequest, RequestError> parse_simulate_request(std::string_view bo
       mark_invalid_robots(root.find("unplanned"), request.robots);
     }
     if (root.fault_count() == 0) join_actions(list, request.robots, request.plans);
+    leave_out_profiles(request);
     add_commitments(request);
     parse_all_dependencies(root, request);
     return reading.met() ? std::nullopt : std::optional(std::move(request));

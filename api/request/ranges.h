@@ -15,6 +15,12 @@ inline constexpr Range kLengthOrZero{0.0, kLargestExtent, "metres"};
 inline constexpr Range kCoordinate{-kFarthestCoordinate, kFarthestCoordinate, "metres"};
 inline constexpr Range kLinearSpeed{kLeastLinearSpeed, kMostLinearSpeed, "metres per second"};
 inline constexpr Range kAngularSpeed{kLeastAngularSpeed, kMostAngularSpeed, "radians per second"};
+inline constexpr Range kLinearAcceleration{kLeastAcceleration, kMostAcceleration,
+                                           "metres per second squared"};
+inline constexpr Range kAngularAcceleration{kLeastAcceleration, kMostAcceleration,
+                                            "radians per second squared"};
+/// Of a profile of speed.
+inline constexpr Range kProfileSpeed{0.0, kMostAngularSpeed, "metres or radians per second"};
 inline constexpr Range kDuration{0.0, kLongestTime, "seconds"};
 inline constexpr Range kHorizon{kShortestHorizon, kLongestTime, "seconds"};
 inline constexpr Range kSlackInTime{1e-3, kLongestTime, "seconds"};  // slack of dependencies

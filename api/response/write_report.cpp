@@ -21,6 +21,8 @@ std::string_view kind_name(core::Violation::Kind kind) {
       return "discontinuity";
     case core::Violation::Kind::speed:
       return "speed";
+    case core::Violation::Kind::profile:
+      return "profile";
     case core::Violation::Kind::wrong_start:
       return "wrong_start";
     case core::Violation::Kind::wrong_goal:

@@ -80,6 +80,7 @@ class ActionWriter {
     json_.member("t_start", t_start).member("t_end", t_end);
     if (action.goal) json_.member("goal", *action.goal);
     if (action.reverse) json_.member("reverse", true);
+    if (action.profile) write_profile(json_, *action.profile);
     write_pose("from", from);
     write_pose("to", to);
     json_.end_object();
@@ -99,6 +100,12 @@ class ActionWriter {
 };
 
 }  // namespace
+
+void write_profile(JsonWriter& json, const core::SpeedProfile& profile) {
+  json.key("profile").begin_object();
+  json.member("start", profile.start).member("cruise", profile.cruise).member("end", profile.end);
+  json.end_object();
+}
 
 void write_actions(JsonWriter& json, const std::vector<core::Action>& actions, const core::Robot& robot,
                    const ReceivedRobot& received, const core::Position& origin) {

@@ -55,6 +55,9 @@ std::string write_response(const VerifiedPlan& verified, const std::string& requ
 void write_actions(JsonWriter& json, const std::vector<core::Action>& actions, const core::Robot& robot,
                    const ReceivedRobot& received, const core::Position& origin);
 
+/// Writes the member `profile` of an action.
+void write_profile(JsonWriter& json, const core::SpeedProfile& profile);
+
 /// Writes the members `dependencies` and `tight`; without dependencies (null), both are null.
 void write_dependencies(JsonWriter& json, const core::Dependencies* dependencies,
                         const std::vector<core::Robot>& robots);

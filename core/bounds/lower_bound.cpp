@@ -111,7 +111,9 @@ class Turns {
 
 double reverse_bound(double distance, double direction, std::optional<double> from_heading,
                      std::optional<double> to_heading, const Motion& motion) {
-  const double straight = motion.translation_time(distance);
+  // A longer way loses no less by inertia.
+  const double straight = motion.cruise_time(distance);
+  const double loss = motion.linear_inertia.loss(distance, motion.linear_speed);
   const double least_turn = from_heading && to_heading ? angle_between(*from_heading, *to_heading) : 0.0;
   double least = std::numeric_limits<double>::infinity();
   for (const double end : {direction, opposite_heading(direction)}) {
@@ -119,7 +121,7 @@ double reverse_bound(double distance, double direction, std::optional<double> fr
     const double to = to_heading ? angle_between(*to_heading, end) : 0.0;
     least = std::min(least, Turns(from, to, least_turn, straight, motion.angular_speed).least_cost());
   }
-  return least;
+  return least + loss;
 }
 
 }  // namespace fleetplan::core

@@ -22,9 +22,13 @@ constexpr int kExpansionStride = 16;
 TautPathResult TautPathSearch::run(const GoalLeg& leg, const Motion& motion, double known_cost,
                                    std::int64_t max_work, const StopCondition& stop) {
   leg_ = &leg;
-  motion_ = &motion;
-  bend_time_ = motion.translation_time(graph_.radius()) + 1.0 / motion.angular_speed;
-  limit_ = known_cost * (1.0 + kCostRounding) + kCostRounding;
+  // The search is for a robot that starts and stops at once. The way is at least as long as the straight
+  // line, so inertia adds at least what it adds there.
+  const double loss = motion.linear_inertia.loss((leg.to.position - leg.from).norm(), motion.linear_speed);
+  motion_ = motion;
+  motion_.linear_inertia = {};
+  bend_time_ = motion.cruise_time(graph_.radius()) + 1.0 / motion.angular_speed;
+  limit_ = known_cost * (1.0 + kCostRounding) + kCostRounding - loss;
   const std::int64_t last_work = work() + max_work;
   reset();
   const double straight = lower_bound(leg, motion);
@@ -36,7 +40,7 @@ TautPathResult TautPathSearch::run(const GoalLeg& leg, const Motion& motion, dou
   TautPathResult result{straight, false};
   for (int expansion = 1; !open_.empty(); ++expansion) {
     const Open best = open_.front();
-    result.seconds = std::max(straight, best.f);
+    result.seconds = std::max(straight, best.f + loss);
     if (arrivals_[best.arrival].at_goal) return result;
     if (work() > last_work) return result;
     if (expansion % kExpansionStride == 0 && stop.met()) {
@@ -72,9 +76,9 @@ void TautPathSearch::expand_start() {
       const auto tangent = graph_.from_point(leg_->from, bend);
       if (!tangent) continue;
       ++steps_;
-      const double rotation = leg_->heading ? motion_->rotation_time(*leg_->heading, tangent->heading) : 0.0;
+      const double rotation = leg_->heading ? motion_.rotation_time(*leg_->heading, tangent->heading) : 0.0;
       const double seconds =
-          rotation + motion_->translation_time(tangent->length) + 2.0 * motion_->wait_before_move;
+          rotation + motion_.translation_time(tangent->length) + 2.0 * motion_.wait_before_move;
       const Arrival arrival{seconds, tangent->arrive_angle, bend, from_start_.next_index(), -1, false};
       if (push(arrival, *tangent)) from_start_.push_back(*tangent);
     }
@@ -101,7 +105,7 @@ void TautPathSearch::expand_tangents(const Arrival& arrival) {
     if (tangent.leave_angle < arrival.angle - kSameAngle) break;  // the others leave before the arrival
     ++steps_;
     double seconds = seconds_after(arrival, tangent);
-    if (tangent.to.left != arrival.bend.left) seconds += motion_->wait_before_move;
+    if (tangent.to.left != arrival.bend.left) seconds += motion_.wait_before_move;
     if (exceeds_limit(seconds, tangent.end) || is_dominated(tangent.to, tangent.arrive_angle, seconds, -1))
       continue;
     if (!graph_.is_arc_free(arrival.bend, arrival.angle, tangent.leave_angle)) continue;
@@ -125,19 +129,19 @@ void TautPathSearch::expand_goal(const Arrival& arrival) {
 /// The time at the end of the tangent, after the arc to its beginning.
 double TautPathSearch::seconds_after(const Arrival& arrival, const Tangent& tangent) const {
   const double turn = std::max(0.0, tangent.leave_angle - arrival.angle);
-  return arrival.seconds + turn * bend_time_ + motion_->translation_time(tangent.length);
+  return arrival.seconds + turn * bend_time_ + motion_.translation_time(tangent.length);
 }
 
 /// Whether the goal cannot be reached from `end` within the limit, turns ignored.
 bool TautPathSearch::exceeds_limit(double seconds, const Position& end) const {
-  const double left = (limit_ - seconds) * motion_->linear_speed;
+  const double left = (limit_ - seconds) * motion_.linear_speed;
   return left < 0.0 || (leg_->to.position - end).squaredNorm() > left * left;
 }
 
 /// Puts an arrival on the open list and returns true, unless the goal cannot be reached within the limit,
 /// turns included.
 bool TautPathSearch::push(const Arrival& arrival, const Tangent& by) {
-  const double f = arrival.seconds + straight_cost({by.end, by.heading}, leg_->to, *motion_);
+  const double f = arrival.seconds + straight_cost({by.end, by.heading}, leg_->to, motion_);
   if (f > limit_) return false;
   open_.push_back({f, arrivals_.push_back(arrival)});
   std::push_heap(open_.begin(), open_.end(), std::greater<>());
@@ -189,6 +193,7 @@ bool fits_at_ends(const Instance& instance, std::size_t robot, std::size_t leg) 
 Motion without_turns_if_reversing(Motion motion) {
   if (!motion.may_reverse) return motion;
   motion.angular_speed = std::numeric_limits<double>::infinity();
+  motion.angular_inertia = {};
   motion.may_reverse = false;
   return motion;
 }

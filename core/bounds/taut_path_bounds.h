@@ -83,7 +83,7 @@ class TautPathSearch {
 
   // The members below belong to the current search. They are members so that their memory is used again.
   const GoalLeg* leg_ = nullptr;
-  const Motion* motion_ = nullptr;
+  Motion motion_;                     // without inertia of translations
   double bend_time_ = 0.0;            // seconds for a radian of an arc
   double limit_ = 0.0;                // seconds; paths that cost more are not explored
   IndexedVector<char> goal_visible_;  // by corner

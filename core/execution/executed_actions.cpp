@@ -4,10 +4,20 @@
 #include <cmath>
 #include <optional>
 
+#include "core/geometry/angle.h"
 #include "core/model/itinerary.h"
 #include "core/model/radius_steps.h"
 
 namespace fleetplan::core {
+namespace {
+
+/// What the profile of an action covers: metres, or radians of a rotation.
+double amount_of(const Action& action) {
+  return action.type == Action::Type::rotate ? angle_between(action.from.theta, action.to.theta)
+                                             : (action.to.position - action.from.position).norm();
+}
+
+}  // namespace
 
 std::vector<Actions> executed_actions(const std::vector<Robot>& robots, const std::vector<RobotPlan>& plans) {
   std::vector<Actions> executed(robots.size());
@@ -20,7 +30,10 @@ std::vector<Actions> executed_actions(const std::vector<Robot>& robots, const st
 
 double planned_time(Actions actions, std::size_t action, double fraction) {
   const Action& planned = actions[action];
-  return fraction >= 1.0 ? planned.t_end : planned.t_start + fraction * (planned.t_end - planned.t_start);
+  if (fraction >= 1.0) return planned.t_end;
+  const double duration = planned.t_end - planned.t_start;
+  if (!planned.profile) return planned.t_start + fraction * duration;
+  return planned.t_start + elapsed_at(*planned.profile, duration, fraction * amount_of(planned));
 }
 
 namespace {
@@ -83,6 +96,22 @@ class Radii {
   std::size_t served_ = 0;
 };
 
+/// Adds a stretch for a translation or, with a profile, for each of its phases.
+void add_translation(const TimedSegment& move, const Action& action, double index, double radius,
+                     std::vector<PlannedStretch>& stretches) {
+  if (!action.profile || move.path.length() <= 0.0 || move.duration() <= 0.0) {
+    stretches.push_back({move, index, 1.0, radius, true});
+    return;
+  }
+  const double length = move.path.length();
+  double begin = 0.0;  // share of the translation
+  for (const TimedSegment& phase : phases(move, *action.profile)) {
+    const double end = std::min(1.0, (phase.path.to - move.path.from).norm() / length);
+    stretches.push_back({phase, index + begin, end - begin, radius, true});
+    begin = end;
+  }
+}
+
 TimedSegment standing(const Position& position, double t_start, double t_end) {
   return {{position, position}, t_start, t_end};
 }
@@ -95,7 +124,12 @@ double Pace::progress_at(double t) const {
                        [](double time, const Action& action) { return time < action.t_end; });
   const auto index = static_cast<double>(under_way - actions_.begin());
   if (under_way == actions_.end()) return index;
-  const double done = (t - under_way->t_start) / (under_way->t_end - under_way->t_start);
+  const double duration = under_way->t_end - under_way->t_start;
+  double done = (t - under_way->t_start) / duration;
+  if (under_way->profile) {
+    done = covered_after(*under_way->profile, duration, std::max(0.0, t - under_way->t_start)) /
+           amount_of(*under_way);
+  }
   return index + std::clamp(done, 0.0, 1.0);
 }
 
@@ -129,7 +163,7 @@ std::vector<PlannedStretch> stretches_of(const Robot& robot, Actions actions, do
     const auto index = static_cast<double>(k);
     const bool moves = action.type == Action::Type::translate;
     if (moves) {
-      stretches.push_back({{{place, action.to.position}, now, action.t_end}, index, 1.0, radius, true});
+      add_translation({{place, action.to.position}, now, action.t_end}, action, index, radius, stretches);
       place = action.to.position;
     } else if (!stretches.empty() && stretches.back().radius == radius &&
                stretches.back().planned.path.from == stretches.back().planned.path.to) {

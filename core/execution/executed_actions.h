@@ -2,7 +2,7 @@
 
 // What robots execute, as far as it is planned: their actions, what their waits are for, and when which
 // progress is planned. Whole progress is the number of actions executed and the fraction of the one under
-// way.
+// way: of its length, if its speed changes.
 
 #include <cstddef>
 #include <span>
@@ -37,7 +37,7 @@ struct WaitPurpose {
 /// longer added wait counts towards it.
 std::vector<WaitPurpose> wait_purposes(const Robot& robot, Actions actions, double wait_before_move);
 
-/// A translation, or consecutive actions in one place.
+/// A translation, a phase of one with a profile, or consecutive actions in one place.
 struct PlannedStretch {
   TimedSegment planned;   // the last one has no end: the robot rests
   double begin = 0.0;     // whole progress

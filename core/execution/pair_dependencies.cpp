@@ -114,6 +114,10 @@ NearestInTime nearest_in_time(const MovingDisk& first, const MovingDisk& second)
   const double begin = std::max(first.t_start, second.t_start);
   const double end = std::min(first.t_end, second.t_end);
   if (begin > end || begin == kForever) return {};
+  if (first.ramp != 0.0 || second.ramp != 0.0) {
+    const Approach nearest = nearest_approach(first, second);
+    return {nearest.t, nearest.distance};
+  }
   const Position offset = first.at(begin) - second.at(begin);
   const Position velocity = first.velocity - second.velocity;
   const double square = velocity.squaredNorm();

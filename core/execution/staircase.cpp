@@ -82,10 +82,6 @@ struct Section {
   }
 };
 
-Position point_at(const Segment& segment, double share) {
-  return segment.from + share * (segment.to - segment.from);
-}
-
 }  // namespace
 
 ConflictRegion::ConflictRegion(const Segment& first, const Segment& second, double distance)
@@ -100,28 +96,6 @@ std::optional<ConflictRegion::Range> ConflictRegion::second_beyond(double from) 
 
 std::optional<ConflictRegion::Range> ConflictRegion::first_up_to(double to) const {
   return Section{-offset_, second_, first_, distance_}.extent(0.0, std::min(1.0, to));
-}
-
-NearestShares nearest_shares(const Segment& first, const Segment& second) {
-  const Position d = first.to - first.from;
-  const Position e = second.to - second.from;
-  const Position offset = second.from - first.from;
-  const double slope = cross_product(d, e);
-  if (slope != 0.0) {
-    const double u = cross_product(offset, e) / slope;
-    const double v = cross_product(offset, d) / slope;
-    if (u >= 0.0 && u <= 1.0 && v >= 0.0 && v <= 1.0) return {{u, v}, 0.0};
-  }
-  NearestShares best{{0.0, nearest_share(second, first.from)}, 0.0};
-  best.distance = (point_at(second, best.at.second) - first.from).norm();
-  const auto improve = [&](const Shares& at) {
-    const double distance = (point_at(first, at.first) - point_at(second, at.second)).norm();
-    if (distance < best.distance) best = {at, distance};
-  };
-  improve({1.0, nearest_share(second, first.to)});
-  improve({nearest_share(first, second.from), 0.0});
-  improve({nearest_share(first, second.to), 1.0});
-  return best;
 }
 
 namespace {

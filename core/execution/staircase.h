@@ -12,12 +12,6 @@
 
 namespace fleetplan::core {
 
-/// How far one robot is along a first line and another one along a second line, as shares in [0, 1].
-struct Shares {
-  double first = 0.0;
-  double second = 0.0;
-};
-
 /// The shares (u, v) with |p(u) - q(v)| < distance, where p and q go along two segments. Positions are affine
 /// in u and v, so this is the inside of an ellipse, or a strip if the segments are parallel, cut to the unit
 /// square: open in it, and convex. A segment of length 0 is a robot that stands.
@@ -43,13 +37,6 @@ class ConflictRegion {
   Position second_;
   double distance_;
 };
-
-/// Where two segments are nearest to each other, and their distance there, metres.
-struct NearestShares {
-  Shares at;
-  double distance = 0.0;
-};
-NearestShares nearest_shares(const Segment& first, const Segment& second);
 
 /// A region of whole progress (u, v) through which the robot of u goes first: one robot passes it before
 /// another one enters.

@@ -40,10 +40,55 @@ class Extent {
 
 }  // namespace
 
+namespace {
+
+/// A part of the motion of one disk relative to another one, at constant relative acceleration.
+struct Parabola {
+  Position from{0.0, 0.0};
+  Position to{0.0, 0.0};
+  Position bend{0.0, 0.0};  // metres: the middle deviates by a quarter of it from that of the chord
+  double t_begin = 0.0;
+  double t_end = 0.0;
+
+  double sag() const { return 0.25 * bend.norm(); }
+  Parabola half(bool later) const {
+    const Position middle = 0.5 * (from + to) - 0.25 * bend;
+    const double t = 0.5 * (t_begin + t_end);
+    return later ? Parabola{middle, to, 0.25 * bend, t, t_end}
+                 : Parabola{from, middle, 0.25 * bend, t_begin, t};
+  }
+};
+
+/// The motion of `a` relative to `b` while both last, which they do for a common time.
+Parabola relative_motion(const MovingDisk& a, const MovingDisk& b) {
+  const double begin = std::max(a.t_start, b.t_start);
+  const double end = std::min(a.t_end, b.t_end);
+  const double duration = end - begin;
+  return {a.at(begin) - b.at(begin), a.at(end) - b.at(end),
+          0.5 * duration * duration * (a.acceleration() - b.acceleration()), begin, end};
+}
+
+/// Whether some point of the parabola is nearer than `reach` to the origin.
+bool comes_near(const Parabola& motion, double reach) {
+  const double square = reach * reach;
+  if (motion.from.squaredNorm() < square || motion.to.squaredNorm() < square) return true;
+  const double sag = motion.sag();
+  const double distance = distance_to_segment({0.0, 0.0}, {motion.from, motion.to});
+  if (distance >= reach + sag) return false;
+  if (distance + sag < reach) return true;
+  if (sag <= kParabolaError) return distance < reach;
+  return comes_near(motion.half(false), reach) || comes_near(motion.half(true), reach);
+}
+
+bool have_ramps(const MovingDisk& a, const MovingDisk& b) { return a.ramp != 0.0 || b.ramp != 0.0; }
+
+}  // namespace
+
 bool collide(const MovingDisk& a, const MovingDisk& b, double reach) {
   const double begin = std::max(a.t_start, b.t_start);
   const double end = std::min(a.t_end, b.t_end);
   if (begin > end) return false;
+  if (have_ramps(a, b)) return comes_near(relative_motion(a, b), reach);
   const Position q = a.at(begin) - b.at(begin);
   const Position v = a.velocity - b.velocity;
   const double qq = q.squaredNorm();
@@ -61,12 +106,64 @@ bool collide(const MovingDisk& a, const MovingDisk& b, double reach) {
 }
 
 UnsafeInterval unsafe_interval(const Position& p, const MovingDisk& b, double reach) {
-  const UnsafeInterval x = near_zero(b.from - p, b.velocity, b.t_end - b.t_start, reach);
-  return {b.t_start + x.begin, b.t_start + x.end};
+  const double length = b.t_end - b.t_start;
+  const UnsafeInterval x = near_zero(b.from - p, b.velocity, length, reach);
+  if (b.ramp == 0.0 || x.empty()) return {b.t_start + x.begin, b.t_start + x.end};
+  return {b.t_start + length * elapsed_share(x.begin / length, b.ramp),
+          b.t_start + length * elapsed_share(x.end / length, b.ramp)};
 }
 
+namespace {
+
+/// The last moment, up to kDepartureError, between one at which `collides` and one that ends the search,
+/// before which it does at all times. Rounded away from `inside`.
+template <class Collides>
+double end_of_collisions(double inside, double outside, const Collides& collides) {
+  if (collides(outside)) return outside;
+  while (std::abs(outside - inside) > kDepartureError) {
+    const double middle = 0.5 * (inside + outside);
+    if (middle == inside || middle == outside) break;
+    (collides(middle) ? inside : outside) = middle;
+  }
+  return outside;
+}
+
+/// See the head of disk_motion.h.
+UnsafeInterval forbidden_departures_with_ramps(MovingDisk mine, double duration, const MovingDisk& b,
+                                               double reach) {
+  const double length = b.t_end - b.t_start;
+  const auto my_time = [&](double share) { return duration * elapsed_share(share, mine.ramp); };
+  if (b.velocity.squaredNorm() == 0.0) {
+    const UnsafeInterval s = near_zero(mine.from - b.from, mine.velocity, duration, reach);
+    if (s.empty()) return {};
+    return {b.t_start - my_time(s.end / duration), b.t_end - my_time(s.begin / duration)};
+  }
+  const Segment path{mine.from, mine.from + mine.velocity * duration};
+  const Segment its_path{b.from, b.from + b.velocity * length};
+  const NearestShares nearest = nearest_shares(path, its_path);
+  if (nearest.distance >= reach) return {};
+  const auto collides = [&](double t) {
+    mine.t_start = t;
+    mine.t_end = t + duration;
+    return collide(mine, b, reach);
+  };
+  const double inside =
+      b.t_start + length * elapsed_share(nearest.at.second, b.ramp) - my_time(nearest.at.first);
+  return {end_of_collisions(inside, b.t_start - duration, collides),
+          end_of_collisions(inside, b.t_end, collides)};
+}
+
+}  // namespace
+
 UnsafeInterval forbidden_departures(const Position& from, const Position& velocity, double duration,
-                                    const MovingDisk& b, double reach) {
+                                    const MovingDisk& b, double reach, double ramp) {
+  if (ramp != 0.0 || b.ramp != 0.0) {
+    MovingDisk mine;
+    mine.from = from;
+    mine.velocity = velocity;
+    mine.ramp = ramp;
+    return forbidden_departures_with_ramps(mine, duration, b, reach);
+  }
   const Position q = from - b.from;
   const double length = b.t_end - b.t_start;
   Extent extent;
@@ -126,7 +223,52 @@ struct Relative {
 
 }  // namespace
 
+namespace {
+
+/// The first time at which the parabola is nearer than `reach` to the origin or, going back, the last one.
+std::optional<double> first_near(const Parabola& motion, double reach, bool back) {
+  const double sag = motion.sag();
+  const double distance = distance_to_segment({0.0, 0.0}, {motion.from, motion.to});
+  if (distance >= reach + sag) return std::nullopt;
+  const Position& begin = back ? motion.to : motion.from;
+  if (begin.squaredNorm() < reach * reach) return back ? motion.t_end : motion.t_begin;
+  if (sag <= kParabolaError || motion.t_end - motion.t_begin <= kDepartureError) {
+    const double share = nearest_share({motion.from, motion.to}, {0.0, 0.0});
+    return distance < reach ? std::optional(motion.t_begin + share * (motion.t_end - motion.t_begin))
+                            : std::nullopt;
+  }
+  if (const auto found = first_near(motion.half(back), reach, back)) return found;
+  return first_near(motion.half(!back), reach, back);
+}
+
+/// Where a part of the motion is nearer to the origin than the best point so far.
+Approach nearest(const Parabola& motion, const Approach& best) {
+  const double sag = motion.sag();
+  const double share = nearest_share({motion.from, motion.to}, {0.0, 0.0});
+  const double distance = (motion.from + share * (motion.to - motion.from)).norm();
+  if (distance - sag >= best.distance) return best;
+  if (sag <= kParabolaError) return {motion.t_begin + share * (motion.t_end - motion.t_begin), distance};
+  return nearest(motion.half(true), nearest(motion.half(false), best));
+}
+
+}  // namespace
+
+Approach nearest_approach(const MovingDisk& a, const MovingDisk& b) {
+  const Parabola motion = relative_motion(a, b);
+  const Approach at_begin{motion.t_begin, motion.from.norm()};
+  const Approach at_end{motion.t_end, motion.to.norm()};
+  return nearest(motion, at_begin.distance <= at_end.distance ? at_begin : at_end);
+}
+
 std::optional<OverlapTime> overlap(const MovingDisk& a, const MovingDisk& b, double reach) {
+  if (have_ramps(a, b)) {
+    if (std::max(a.t_start, b.t_start) > std::min(a.t_end, b.t_end) || reach <= 0.0) return std::nullopt;
+    const Parabola motion = relative_motion(a, b);
+    const auto begin = first_near(motion, reach, false);
+    const auto end = first_near(motion, reach, true);
+    if (!begin || !end || *begin >= *end) return std::nullopt;
+    return OverlapTime{*begin, *end};
+  }
   const Relative relative(a, b);
   if (relative.t_begin > relative.t_end || reach <= 0.0) return std::nullopt;
   const double excess = relative.from.squaredNorm() - reach * reach;
@@ -150,6 +292,7 @@ std::optional<OverlapTime> overlap(const MovingDisk& a, const MovingDisk& b, dou
 double least_distance(const MovingDisk& a, const MovingDisk& b) {
   const Relative relative(a, b);
   if (relative.t_begin > relative.t_end) return kForever;
+  if (have_ramps(a, b)) return nearest_approach(a, b).distance;
   if (relative.speed_squared <= 0.0) return relative.from.norm();
   const double nearest = -relative.from.dot(relative.velocity) / relative.speed_squared;
   const double s = std::clamp(nearest, 0.0, relative.t_end - relative.t_begin);

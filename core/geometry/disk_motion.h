@@ -1,8 +1,9 @@
 #pragma once
 
-// Collisions of two disks that move along straight lines at constant speed, in closed form. `reach` is the
-// distance of the centres below which they collide: the sum of the radii.
+// Collisions of two disks that move along straight lines. `reach` is the distance of the centres below which
+// they collide: the sum of the radii.
 //
+// At constant speed, all of this has a closed form.
 // Progress along my move is s in [0, d], along the other's segment u in [0, L], both in seconds. The
 // positions collide where |q + va s - vb u| < reach: a convex region (the inside of an ellipse, or a strip
 // when the velocities are parallel) clipped to a rectangle. My departure is t0 + u - s, which is linear. So
@@ -10,6 +11,13 @@
 // rectangle's edges or at the ellipse's two extreme points. Times are exact to about 1e-12 s, except where
 // paths only touch: there the square root loses half of the digits, but the overlap is of second order in
 // that error and stays below 1e-12 m.
+//
+// At constant acceleration, the lengths s and u at which the two collide form the same convex region, and the
+// departure that lets the two be at s and u at one time is continuous in them. So the departures that collide
+// are one interval again. It contains the departure that makes the two meet where their paths are nearest;
+// from there, its ends are found by bisection, rounded outwards by kDepartureError. Whether two disks collide
+// is decided on chords of their relative motion, a parabola, which deviates from its chord by no more than
+// a T^2 / 8 in a time T; halves are looked at until that is below kParabolaError.
 
 #include <optional>
 
@@ -17,21 +25,40 @@
 
 namespace fleetplan::core {
 
+/// The error of departures of motion at constant acceleration, seconds.
+inline constexpr double kDepartureError = 1e-10;
+/// The error of distances of motion at constant acceleration, metres; far below kSearchSlack.
+inline constexpr double kParabolaError = 1e-11;
+
 /// A disk that moves along a timed segment, with its velocity computed once.
 struct MovingDisk {
   Position from{0.0, 0.0};      // at t_start
-  Position velocity{0.0, 0.0};  // metres per second, zero for a wait
+  Position velocity{0.0, 0.0};  // the mean, metres per second, zero for a wait
   double t_start = 0.0;
   double t_end = 0.0;  // kForever only with zero velocity
+  double ramp = 0.0;   // see TimedSegment
 
   MovingDisk() = default;
   explicit MovingDisk(const TimedSegment& segment)
       : from(segment.path.from),
         velocity(segment.velocity()),
         t_start(segment.t_start),
-        t_end(segment.t_end) {}
+        t_end(segment.t_end),
+        ramp(segment.ramp) {}
 
-  Position at(double t) const { return from + velocity * (t - t_start); }
+  Position at(double t) const {
+    if (ramp == 0.0) return from + velocity * (t - t_start);
+    const double duration = t_end - t_start;
+    return from + velocity * (duration * covered_share((t - t_start) / duration, ramp));
+  }
+  /// Metres per second squared.
+  Position acceleration() const {
+    return ramp == 0.0 ? Position(0.0, 0.0) : Position(velocity * (2.0 * ramp / (t_end - t_start)));
+  }
+  /// How far it is at most, in metres, from where it would be at constant speed.
+  double sag() const {
+    return ramp == 0.0 ? 0.0 : 0.25 * std::abs(ramp) * velocity.norm() * (t_end - t_start);
+  }
 };
 
 /// Returns whether the two come closer than `reach` while both segments last (paper, "Estimating the
@@ -41,11 +68,11 @@ bool collide(const MovingDisk& a, const MovingDisk& b, double reach);
 /// Returns the times at which `b` is closer than `reach` to the point `p`; empty if there are none.
 UnsafeInterval unsafe_interval(const Position& p, const MovingDisk& b, double reach);
 
-/// Returns the departure times t of the move (from, velocity, duration > 0) for which it comes closer than
-/// `reach` to `b`. An end of the interval may be forbidden itself; then a neighbouring segment of `b` or a
-/// safe interval of the move covers it. Use it on contiguous trajectories only.
+/// Returns the departure times t of the move (from, velocity, duration > 0, ramp) for which it comes closer
+/// than `reach` to `b`. An end of the interval may be forbidden itself; then a neighbouring segment of `b` or
+/// a safe interval of the move covers it. Use it on contiguous trajectories only.
 UnsafeInterval forbidden_departures(const Position& from, const Position& velocity, double duration,
-                                    const MovingDisk& b, double reach);
+                                    const MovingDisk& b, double reach, double ramp = 0.0);
 
 /// When two disks are nearer to each other than they may be, seconds; begin <= end.
 struct OverlapTime {
@@ -54,9 +81,19 @@ struct OverlapTime {
 };
 
 /// Returns the time during which `a` and `b` are closer than `reach` while both last; none if they never are.
+/// At constant acceleration they may be apart in between.
 /// Unlike for a search, a common instant counts: a disk that is there for one instant only may overlap
 /// another one.
 std::optional<OverlapTime> overlap(const MovingDisk& a, const MovingDisk& b, double reach);
+
+/// When two centres are nearest to each other, and their distance then.
+struct Approach {
+  double t = 0.0;              // seconds
+  double distance = kForever;  // metres
+};
+
+/// Returns the nearest approach of two disks that have a common time, one of which changes its speed.
+Approach nearest_approach(const MovingDisk& a, const MovingDisk& b);
 
 /// Returns the least distance of the centres while both segments last, metres; kForever if they have no
 /// common time.

@@ -58,7 +58,7 @@ class MotionTree {
   template <class Visit>
   bool visit(const MovingDisk& mine, double reach, double margin, Visit&& visit) const {
     if (leaves_.empty()) return true;
-    return descend(levels_.size() - 1, 0, Query{mine, reach, margin}, visit);
+    return descend(levels_.size() - 1, 0, Query{mine, reach + mine.sag(), margin}, visit);
   }
 
  private:
@@ -66,7 +66,7 @@ class MotionTree {
   static constexpr std::size_t kFanOut = 8;
 
   struct Query {
-    const MovingDisk& mine;
+    const MovingDisk& mine;  // as if at constant speed: the reach includes how far it is from that
     double reach;
     double margin;
 

@@ -3,6 +3,7 @@
 // Segments of the plane, alone and with times; and intervals of time.
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/geometry/position.h"
@@ -17,6 +18,8 @@ struct Segment {
   Position to{0.0, 0.0};
 
   double length() const { return (to - from).norm(); }
+  /// The point after a share of the way.
+  Position at(double share) const { return from + share * (to - from); }
 };
 
 /// Returns the share of the segment, in [0, 1], at which it is nearest to a point.
@@ -31,14 +34,54 @@ inline double distance_to_segment(const Position& point, const Segment& segment)
   return (segment.from + nearest_share(segment, point) * (segment.to - segment.from) - point).norm();
 }
 
-/// A segment traversed at constant speed during [t_start, t_end], seconds. A wait has from == to; only a wait
-/// may have no end.
+/// How far one robot is along a first segment and another one along a second segment, as shares in [0, 1].
+struct Shares {
+  double first = 0.0;
+  double second = 0.0;
+};
+
+/// Where two segments are nearest to each other, and their distance there, metres.
+struct NearestShares {
+  Shares at;
+  double distance = 0.0;
+};
+NearestShares nearest_shares(const Segment& first, const Segment& second);
+
+/// The share of a way that is covered after a share of its time, both in [0, 1], at constant acceleration.
+/// For `ramp` see TimedSegment.
+inline double covered_share(double elapsed, double ramp) {
+  return ramp == 0.0 ? elapsed : elapsed * (1.0 - ramp * (1.0 - elapsed));
+}
+
+/// The inverse: the share of the time that it takes to cover a share of the way.
+inline double elapsed_share(double covered, double ramp) {
+  if (ramp == 0.0 || covered <= 0.0) return covered;
+  const double start = 1.0 - ramp;
+  const double root = std::sqrt(std::max(0.0, start * start + 4.0 * ramp * covered));
+  return std::min(1.0, 2.0 * covered / (start + root));
+}
+
+/// A segment traversed at constant acceleration, which mostly is 0, during [t_start, t_end], seconds. A wait
+/// has from == to; only a wait may have no end.
 struct TimedSegment {
   Segment path;
   double t_start = 0.0;
   double t_end = 0.0;
+  /// How much the speed changes: it is (1 - ramp) times the mean speed at the begin and (1 + ramp) times at
+  /// the end. In [-1, 1]; 0 at constant speed, 1 from rest, -1 to rest.
+  double ramp = 0.0;
 
   double duration() const { return t_end - t_start; }
+  /// The part from `t` on, which is within it.
+  TimedSegment from_time(double t) const {
+    const double elapsed = (t - t_start) / duration();
+    const double speed = 1.0 - ramp * (1.0 - 2.0 * elapsed);  // at `t`, as a share of the mean speed
+    return {{path.at(covered_share(elapsed, ramp)), path.to},
+            t,
+            t_end,
+            (1.0 + ramp - speed) / (1.0 + ramp + speed)};
+  }
+  /// The mean velocity, metres per second.
   Position velocity() const {
     const double d = duration();
     return d > 0.0 && d < kForever ? Position((path.to - path.from) / d) : Position(0.0, 0.0);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/geometry/angle.h"
+#include "core/geometry/speed_profile.h"
 #include "core/model/plan_options.h"
 #include "core/model/robot.h"
 
@@ -15,9 +16,17 @@ struct Motion {
   double pair_radius = 0.0;       // metres, to other robots: vicinity and inflation included
   bool may_reverse = false;       // translate backwards, too
 
-  double translation_time(double distance) const { return distance / linear_speed; }
+  Inertia linear_inertia = {};   // of translations
+  Inertia angular_inertia = {};  // of rotations
+
+  /// Seconds of a translation from rest to rest.
+  double translation_time(double distance) const { return linear_inertia.time(distance, linear_speed); }
+  /// Seconds at full speed.
+  double cruise_time(double distance) const { return distance / linear_speed; }
   /// Seconds to turn from one normalised heading to another, the shorter way.
-  double rotation_time(double from, double to) const { return angle_between(from, to) / angular_speed; }
+  double rotation_time(double from, double to) const {
+    return angular_inertia.time(angle_between(from, to), angular_speed);
+  }
 };
 
 /// How the robot moves under these options while it has this radius (metres).
@@ -27,7 +36,9 @@ inline Motion motion_of(const Robot& robot, const PlanOptions& options, double r
           robot.angular_speed,
           options.wait_before_move,
           radius + options.inflation + robot.vicinity,
-          robot.may_reverse};
+          robot.may_reverse,
+          robot.linear_inertia(),
+          robot.angular_inertia()};
 }
 inline Motion motion_of(const Robot& robot, const PlanOptions& options) {
   return motion_of(robot, options, robot.radius);

@@ -48,9 +48,10 @@ class ActionList {
     const bool serves = goal.service > 0.0 || goal.not_before > 0.0;
     if (goal.theta || serves) wait(t_leave, serves ? std::optional(robot_.via.size()) : std::nullopt);
   }
-  void translate(const TimedSegment& move, bool reverse) {
+  void translate(const TimedSegment& move, const SpeedProfile* profile, bool reverse) {
     append(Action::Type::translate, move.t_end, {move.path.to, pose_.theta}, {});
     actions_.back().reverse = reverse;
+    if (profile != nullptr) actions_.back().profile = *profile;
   }
   void wait(double t_end, std::optional<std::size_t> goal) {
     if (t_end - now_ > kNegligible) append(Action::Type::wait, t_end, pose_, goal);
@@ -64,9 +65,11 @@ class ActionList {
     const double rotation = std::abs(rotation_between(pose_.theta, theta));
     if (rotation <= kNegligible) return;
     const double speed = zones_ != nullptr ? zones_->angular_speed_at(pose_.position) : robot_.angular_speed;
-    double rotated = now_ + rotation / speed;
+    const Inertia inertia = robot_.angular_inertia();
+    double rotated = now_ + inertia.time(rotation, speed);
     if (std::abs(t_end - rotated) <= rounding) rotated = t_end;
     append(Action::Type::rotate, rotated, {pose_.position, theta}, {});
+    if (inertia.any()) actions_.back().profile = fastest_profile(rotation, speed, inertia);
   }
   void append(Action::Type type, double t_end, const Pose& to, std::optional<std::size_t> goal) {
     actions_.push_back({type, now_, t_end, pose_, to, goal});
@@ -112,7 +115,7 @@ std::vector<Action> to_actions(const Robot& robot, const Trajectory& trajectory,
       const double heading = reverse ? opposite_heading(direction) : direction;
       moves ? list.rotate_and_wait(heading, move.t_start) : list.turn(heading, move.t_start);
     }
-    if (moves) list.translate(move, reverse);
+    if (moves) list.translate(move, trajectory.profile(k), reverse);
   }
   for (; visit != trajectory.visits.end(); ++visit) list.visit(*visit);
   if (trajectory.stops_at) {

@@ -4,11 +4,12 @@
 #include <optional>
 
 #include "core/geometry/position.h"
+#include "core/geometry/speed_profile.h"
 
 namespace fleetplan::core {
 
-/// One rotation, translation or wait of a robot, from one pose to another, at constant speed. Times in
-/// seconds from the start of the plan.
+/// One rotation, translation or wait of a robot, from one pose to another, at constant speed or with a
+/// profile. Times in seconds from the start of the plan.
 struct Action {
   enum class Type { rotate, translate, wait };
   Type type = Type::wait;
@@ -21,6 +22,8 @@ struct Action {
   std::optional<std::size_t> goal = {};
   /// Whether the robot translates backwards: the heading is opposite to the direction of motion.
   bool reverse = false;
+  /// The speed of a robot whose acceleration is limited, forwards and backwards > 0; nullopt: constant.
+  std::optional<SpeedProfile> profile = {};
 };
 
 }  // namespace fleetplan::core

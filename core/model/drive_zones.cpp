@@ -39,18 +39,34 @@ std::vector<Part> joined(const std::vector<Part>& parts, double length) {
   return result;
 }
 
+/// Returns the profiles of the parts of a move of this length; none without inertia.
+std::vector<SpeedProfile> profiles_of(const std::vector<Part>& parts, double length, const Inertia& inertia) {
+  if (!inertia.any()) return {};
+  std::vector<LimitedPart> limited;
+  limited.reserve(parts.size());
+  double first = 0.0;
+  for (const Part& part : parts) {
+    limited.push_back({(part.last - first) * length, part.speed});
+    first = part.last;
+  }
+  return fastest_profiles(limited, inertia);
+}
+
 /// Returns the parts of the segment from `from` to `to` with their times.
-std::vector<DriveZones::Piece> timed(const std::vector<Part>& parts, const Position& from,
-                                     const Position& to) {
+std::vector<DriveZones::Piece> timed(const std::vector<Part>& parts, const Position& from, const Position& to,
+                                     const Inertia& inertia) {
   const double length = (to - from).norm();
+  const std::vector<SpeedProfile> profiles = profiles_of(parts, length, inertia);
   std::vector<DriveZones::Piece> pieces;
   Position here = from;
   double first = 0.0;
   double seconds = 0.0;
   for (const Part& part : parts) {
     const Position next = part.last < 1.0 ? Position(from + part.last * (to - from)) : to;
-    const double end = seconds + (part.last - first) * length / part.speed;
+    double end = seconds + (part.last - first) * length / part.speed;
+    if (!profiles.empty()) end = seconds + duration(profiles[pieces.size()], (part.last - first) * length);
     pieces.push_back({{here, next}, part.speed, seconds, end});
+    if (!profiles.empty()) pieces.back().profile = profiles[pieces.size() - 1];
     here = next;
     first = part.last;
     seconds = end;
@@ -63,6 +79,7 @@ std::vector<DriveZones::Piece> timed(const std::vector<Part>& parts, const Posit
 DriveZones::DriveZones(const std::vector<Zone>& zones, std::size_t index, const Robot& robot, Limits limits)
     : linear_speed_(limits == Limits::slower_zones ? robot.linear_speed : Zone::kNoLimit),
       angular_speed_(limits == Limits::slower_zones ? robot.angular_speed : Zone::kNoLimit),
+      linear_inertia_(robot.linear_inertia()),
       least_angular_speed_(angular_speed_) {
   for (std::size_t k = 0; k < zones.size(); ++k) {
     const Zone& zone = zones[k];
@@ -96,7 +113,8 @@ std::optional<std::size_t> DriveZones::broken_by(const Action& action) const {
   if (action.type == Action::Type::rotate) {
     const double turn = angle_between(action.from.theta, action.to.theta);
     for (const SpeedZone& zone : speed_) {
-      const bool is_fast = duration * zone.angular_speed < turn - kContactTolerance;
+      const bool is_fast = action.profile ? action.profile->cruise > zone.angular_speed + kContactTolerance
+                                          : duration * zone.angular_speed < turn - kContactTolerance;
       if (is_fast && zone.polygon.contains(from) &&
           zone.polygon.distance_to_border(from) > kContactTolerance) {
         return zone.index;
@@ -108,6 +126,14 @@ std::optional<std::size_t> DriveZones::broken_by(const Action& action) const {
   // Bounded: the sides of all zones, each once.
   for (const SpeedZone& zone : speed_) {
     for (const Polygon::Span& span : zone.polygon.spans_inside(from, to)) {
+      if (action.profile) {
+        const double first = span.first * length + kContactTolerance;
+        const double last = span.last * length - kContactTolerance;
+        const bool is_fast = last > first && fastest_between(*action.profile, first, last, length) >
+                                                 zone.linear_speed + kContactTolerance;
+        if (is_fast) return zone.index;
+        continue;
+      }
       const double share = span.last - span.first;
       if (share * duration * zone.linear_speed < share * length - kContactTolerance) return zone.index;
     }
@@ -156,11 +182,11 @@ std::vector<DriveZones::Piece> DriveZones::pieces(const Position& from, const Po
     parts.push_back(part);
     first = last;
   }
-  return timed(joined(parts, (to - from).norm()), from, to);
+  return timed(joined(parts, (to - from).norm()), from, to, linear_inertia_);
 }
 
 double DriveZones::translation_time(const Position& from, const Position& to) const {
-  if (!meets_speed_zone(from, to)) return (to - from).norm() / linear_speed_;
+  if (!meets_speed_zone(from, to)) return linear_inertia_.time((to - from).norm(), linear_speed_);
   return pieces(from, to).back().end;
 }
 

@@ -7,6 +7,7 @@
 #include "core/geometry/polygon.h"
 #include "core/geometry/position.h"
 #include "core/geometry/segment.h"
+#include "core/geometry/speed_profile.h"
 #include "core/model/action.h"
 #include "core/model/robot.h"
 #include "core/model/zone.h"
@@ -17,12 +18,13 @@ namespace fleetplan::core {
 /// to kSamePosition.
 class DriveZones {
  public:
-  /// A part of a straight move, with one speed.
+  /// A part of a straight move, with one greatest speed. Without a profile, it is the speed.
   struct Piece {
     Segment path;
     double linear_speed = 0.0;  // metres per second
     double begin = 0.0;         // seconds from the beginning of the move
     double end = 0.0;
+    std::optional<SpeedProfile> profile = {};
   };
 
   /// Which zones that limit speeds count: those that are slower than the robot, or all.
@@ -39,8 +41,8 @@ class DriveZones {
   std::optional<std::size_t> forbidding_zone(const Position& from, const Position& to) const;
   bool allow(const Position& from, const Position& to) const { return !forbidding_zone(from, to); }
 
-  /// Returns the pieces of a straight move of length > 0 at the greatest speeds; at least one. Neighbouring
-  /// pieces differ in speed.
+  /// Returns the pieces of a straight move of length > 0, from rest to rest, at the greatest speeds; at least
+  /// one. Neighbouring pieces differ in speed.
   std::vector<Piece> pieces(const Position& from, const Position& to) const;
   /// Returns the seconds that the straight move takes at the greatest speeds.
   double translation_time(const Position& from, const Position& to) const;
@@ -80,6 +82,7 @@ class DriveZones {
 
   double linear_speed_;
   double angular_speed_;
+  Inertia linear_inertia_;
   double least_angular_speed_;
   std::vector<SpeedZone> speed_;
   std::vector<OneWayZone> one_way_;

@@ -88,6 +88,9 @@ Trajectory committed_trajectory(const Robot& robot) {
   for (const Action& action : robot.committed) {
     if (action.type != Action::Type::translate || action.from.position == action.to.position) continue;
     trajectory.moves.push_back({{action.from.position, action.to.position}, action.t_start, action.t_end});
+    if (!action.profile) continue;
+    trajectory.profiles.resize(trajectory.moves.size());
+    trajectory.profiles.back() = action.profile;
   }
   trajectory.cost = robot.committed_until();
   return trajectory;

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/geometry/position.h"
+#include "core/geometry/speed_profile.h"
 #include "core/model/action.h"
 
 namespace fleetplan::core {
@@ -21,7 +23,8 @@ struct Goal {
 };
 
 /// A differential-drive robot: an open disk that waits, rotates in place or translates straight ahead (or
-/// back, see `may_reverse`), without inertia (paper, Problem Statement).
+/// back, see `may_reverse`; paper, Problem Statement). Its speed changes at once, unless acceleration is
+/// limited; then every translation and rotation begins and ends at rest.
 ///
 /// It visits the goals of `via` in their order and then `goal`, where it stays. Goals are numbered in this
 /// order from 0. A goal is visited when the robot is at rest in its pose for the whole service, after the
@@ -45,6 +48,13 @@ struct Robot {
   bool may_reverse = false;  // it may translate backwards
   double vicinity = 0.0;     // metres, >= 0, added to its radius against other robots only
   double goal_age = 0.0;     // seconds, >= 0, for which its next goal could have been served already
+  static constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+  double linear_acceleration = kNoLimit;   // metres per second squared, > 0
+  double linear_deceleration = kNoLimit;   // metres per second squared, > 0
+  double angular_acceleration = kNoLimit;  // radians per second squared, > 0, both ways
+
+  Inertia linear_inertia() const { return {1.0 / linear_acceleration, 1.0 / linear_deceleration}; }
+  Inertia angular_inertia() const { return {1.0 / angular_acceleration, 1.0 / angular_acceleration}; }
 
   std::size_t goal_count() const { return via.size() + (goal ? 1 : 0); }
   const Goal& goal_at(std::size_t index) const { return index < via.size() ? via[index] : *goal; }

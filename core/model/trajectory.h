@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/geometry/segment.h"
+#include "core/geometry/speed_profile.h"
 
 namespace fleetplan::core {
 
@@ -27,6 +28,7 @@ struct Trajectory {
   double last_served = kForever;
   /// By move: whether it goes on straight from the move before, at another speed; missing ones do not.
   std::vector<bool> goes_on = {};
+  std::vector<std::optional<SpeedProfile>> profiles = {};  // by move; missing ones are at constant speed
   /// Seconds: the plan stops here, at or after the horizon, with goals left. `cost` is then an estimate: it
   /// includes the static way that is left.
   std::optional<double> stops_at = {};
@@ -39,18 +41,27 @@ struct Trajectory {
 
   bool is_reverse(std::size_t move) const { return move < reverse.size() && reverse[move]; }
   bool continues(std::size_t move) const { return move < goes_on.size() && goes_on[move]; }
+  const SpeedProfile* profile(std::size_t move) const {
+    return move < profiles.size() && profiles[move] ? &*profiles[move] : nullptr;
+  }
   Position end() const { return moves.empty() ? start : moves.back().path.to; }
 };
 
-/// The trajectory as contiguous timed segments from t = 0 to kForever, waits included.
+/// The trajectory as contiguous timed segments from t = 0 to kForever, waits included. A move with a profile
+/// is divided into its phases.
 inline std::vector<TimedSegment> timed_segments(const Trajectory& trajectory) {
   std::vector<TimedSegment> segments;
   segments.reserve(2 * trajectory.moves.size() + 1);
   double now = 0.0;
   Position here = trajectory.start;
-  for (const TimedSegment& move : trajectory.moves) {
+  for (std::size_t k = 0; k < trajectory.moves.size(); ++k) {
+    const TimedSegment& move = trajectory.moves[k];
     if (move.t_start > now) segments.push_back({{here, here}, now, move.t_start});
-    segments.push_back(move);
+    if (const SpeedProfile* profile = trajectory.profile(k)) {
+      for (const TimedSegment& phase : phases(move, *profile)) segments.push_back(phase);
+    } else {
+      segments.push_back(move);
+    }
     now = move.t_end;
     here = move.path.to;
   }

@@ -36,8 +36,12 @@ std::vector<SizedSegment> from_time(double t, std::vector<SizedSegment> segments
   std::erase_if(segments, [&](const SizedSegment& segment) { return segment.t_end <= t; });
   if (!segments.empty() && segments.front().t_start < t) {
     SizedSegment& first = segments.front();
-    first.path.from += first.velocity() * (t - first.t_start);
-    first.t_start = t;
+    if (first.ramp == 0.0) {
+      first.path.from += first.velocity() * (t - first.t_start);
+      first.t_start = t;
+    } else {
+      static_cast<TimedSegment&>(first) = first.from_time(t);
+    }
   }
   return segments;
 }

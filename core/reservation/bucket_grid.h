@@ -54,7 +54,8 @@ class BucketGrid {
   /// with a time window that contains all such times. `reach` is exceeded by up to half a bucket's diagonal.
   template <class Visit>
   void cover(const MovingDisk& disk, double reach, Visit&& visit) const {
-    const double margin = reach + 0.7072 * size_;  // the bucket's circumscribed circle, rounded up
+    // The bucket's circumscribed circle, rounded up; times are those of the mean speed.
+    const double margin = reach + disk.sag() + 0.7072 * size_;
     const double speed = disk.velocity.norm();
     const bool moving = speed > 0.0;
     const Position a = disk.from;

@@ -59,7 +59,8 @@ bool meet(const MovingDisk& a, const MovingDisk& b, double reach, double margin)
   if (collide(a, b, reach)) return true;
   if (margin == 0.0) return false;
   if (a.velocity.squaredNorm() > 0.0) {
-    const UnsafeInterval hit = forbidden_departures(a.from, a.velocity, a.t_end - a.t_start, b, reach);
+    const UnsafeInterval hit =
+        forbidden_departures(a.from, a.velocity, a.t_end - a.t_start, b, reach, a.ramp);
     return !hit.empty() && hit.begin - margin < a.t_start && a.t_start < hit.end + margin;
   }
   const UnsafeInterval hit = unsafe_interval(a.from, b, reach);
@@ -77,12 +78,13 @@ std::vector<std::size_t> ascending(std::vector<std::size_t> all) {
 /// A straight move whose departure is delayed past others.
 class ReservationTable::Departure {
  public:
-  Departure(const Segment& path, double duration, double t_min, double t_max)
+  Departure(const Segment& path, double duration, double t_min, double t_max, double ramp)
       : duration_(duration), t_max_(t_max) {
     mine_.from = path.from;
     mine_.velocity = (path.to - path.from) / duration;
     mine_.t_start = t_min;
     mine_.t_end = t_min + duration;
+    mine_.ramp = ramp;
   }
 
   const MovingDisk& move() const { return mine_; }
@@ -99,7 +101,8 @@ class ReservationTable::Departure {
       never_ = true;
       return false;
     }
-    const UnsafeInterval hit = forbidden_departures(mine_.from, mine_.velocity, duration_, other, distance);
+    const UnsafeInterval hit =
+        forbidden_departures(mine_.from, mine_.velocity, duration_, other, distance, mine_.ramp);
     if (hit.empty() || hit.end <= mine_.t_start) return true;  // they only touch, up to rounding
     delay_to(hit.end);
     return false;
@@ -107,7 +110,8 @@ class ReservationTable::Departure {
 
  private:
   bool delay_past_with_margin(const MovingDisk& other, double distance, double margin) {
-    const UnsafeInterval hit = forbidden_departures(mine_.from, mine_.velocity, duration_, other, distance);
+    const UnsafeInterval hit =
+        forbidden_departures(mine_.from, mine_.velocity, duration_, other, distance, mine_.ramp);
     if (hit.empty() || mine_.t_start <= hit.begin - margin || mine_.t_start >= hit.end + margin) return true;
     delay_to(hit.end + margin);
     return false;
@@ -235,12 +239,12 @@ std::vector<SafeInterval> ReservationTable::safe_intervals(const Footprint& foot
 }
 
 std::optional<double> ReservationTable::earliest_departure(const Footprint& footprint, const Segment& path,
-                                                           double duration, double t_min,
-                                                           double t_max) const {
+                                                           double duration, double t_min, double t_max,
+                                                           double ramp) const {
   const SegmentIndex& index = *index_;
   const std::size_t robot = footprint.robot;
   const CollisionDistance collision_distance(index, footprint, path);
-  Departure departure(path, duration, t_min, t_max);
+  Departure departure(path, duration, t_min, t_max, ramp);
   const MovingDisk& mine = departure.move();
   const auto visit = [&](const Occupant& other) {
     return departure.delay_past(other.disk, collision_distance(other), margin_);
@@ -249,8 +253,10 @@ std::optional<double> ReservationTable::earliest_departure(const Footprint& foot
   while (departure.is_delayed()) {
     departure.begin_round();
     index.grid().walk(path.from, path.to, [&](std::size_t bucket, double enter, double exit) {
-      while (!index.visit(robot, bucket, mine.t_start + enter * duration - margin_,
-                          mine.t_start + exit * duration + margin_, visit)) {
+      const double entered = elapsed_share(enter, ramp) * duration;
+      const double left = elapsed_share(exit, ramp) * duration;
+      while (!index.visit(robot, bucket, mine.t_start + entered - margin_, mine.t_start + left + margin_,
+                          visit)) {
         if (departure.is_never()) return false;
       }
       return true;
@@ -290,8 +296,9 @@ std::vector<std::size_t> ReservationTable::robots_hit(std::size_t robot,
     const double margin = margin_of(robot, segment);
     index_->grid().walk(
         segment.path.from, segment.path.to, [&](std::size_t bucket, double enter, double exit) {
-          const double t_begin = mine.t_start + enter * duration - margin;
-          const double t_end = (moving ? mine.t_start + exit * duration : mine.t_end) + margin;
+          const double t_begin = mine.t_start + elapsed_share(enter, mine.ramp) * duration - margin;
+          const double t_end =
+              (moving ? mine.t_start + elapsed_share(exit, mine.ramp) * duration : mine.t_end) + margin;
           return index_->visit(robot, bucket, t_begin, t_end, [&](const Occupant& other) {
             const double reach = std::max(0.0, collision_distance(other) - kSearchSlack);  // rounding
             if (other.robot != robot && meet(mine, other.disk, reach, margin)) hit.push_back(other.robot);

@@ -47,9 +47,9 @@ class ReservationTable {
 
   /// The earliest departure in [t_min, t_max] at which the robot can make the straight move of `duration`
   /// seconds (> 0) without a collision on the way; none if there is none. The caller ensures that the robot
-  /// is in safe intervals before and after the move.
+  /// is in safe intervals before and after the move. For `ramp` see TimedSegment.
   std::optional<double> earliest_departure(const Footprint& footprint, const Segment& path, double duration,
-                                           double t_min, double t_max) const;
+                                           double t_min, double t_max, double ramp = 0.0) const;
 
   /// The robots whose reservations come nearer to these segments of `robot` than they are kept apart,
   /// ascending; those that they only touch, up to rounding, are left out, as departures are delayed until

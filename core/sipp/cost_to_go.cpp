@@ -58,7 +58,7 @@ void TimesFromStart::open(int vertex, float seconds) {
 }
 
 double TimesFromStart::to_goal(int vertex) const {
-  return vertices_.motion().translation_time((vertices_.position(vertex) - goal_position_).norm());
+  return vertices_.motion().cruise_time((vertices_.position(vertex) - goal_position_).norm());
 }
 
 /// No way to the goal is faster than the one found, so a vertex off it is at least so far from the start that
@@ -171,7 +171,7 @@ class CostToGo::BackwardSearch {
   void begin(const StopCondition& stop);
   double seconds_from_start(int vertex);
   Estimate via(int vertex, int next);
-  void add_onward(Estimate& estimate, int next);
+  void add_onward(Estimate& estimate, int next, double length);
   bool goal_in_sight(int vertex);
   bool is_slowed(int vertex, int next) const;
   void relax(int vertex, int next);
@@ -260,7 +260,7 @@ void CostToGo::BackwardSearch::begin(const StopCondition& stop) {
 /// About the seconds that translations from the start to a vertex take, at least.
 double CostToGo::BackwardSearch::seconds_from_start(int vertex) {
   if (!from_start_) return 0.0;
-  const double straight = motion_.translation_time((vertices_.position(vertex) - start_position_).norm());
+  const double straight = motion_.cruise_time((vertices_.position(vertex) - start_position_).norm());
   return std::max(straight, shortening_ * from_start_->at_least(vertex));
 }
 
@@ -271,22 +271,25 @@ CostToGo::Estimate CostToGo::BackwardSearch::via(int vertex, int next) {
   estimate.heading = d.heading;
   estimate.seconds = vertices_.translation_time(vertex, next, d.length) + motion_.wait_before_move;
   if (motion_.may_reverse) {
-    add_onward(estimate, next);
+    add_onward(estimate, next, d.length);
     return estimate;
   }
   if (next != goal_) {
     const Node& onward = node(next);
     estimate.seconds += onward.seconds + motion_.rotation_time(estimate.heading, onward.heading);
     const bool continues_straight = angle_between(estimate.heading, onward.heading) <= kSameHeading;
-    if (continues_straight) estimate.seconds -= motion_.wait_before_move;  // both are one translation
+    if (continues_straight) {  // both are one translation
+      estimate.seconds -=
+          motion_.wait_before_move + motion_.linear_inertia.loss(d.length, motion_.linear_speed);
+    }
   } else if (goal_heading_) {
     estimate.seconds += motion_.rotation_time(estimate.heading, *goal_heading_);
   }
   return estimate;
 }
 
-/// Adds the cost from `next` on to that of the translation there, forwards and backwards.
-void CostToGo::BackwardSearch::add_onward(Estimate& estimate, int next) {
+/// Adds the cost from `next` on to that of the translation there, which is so long, forwards and backwards.
+void CostToGo::BackwardSearch::add_onward(Estimate& estimate, int next, double length) {
   const double back = opposite_heading(estimate.heading);
   const double translation = estimate.seconds;
   if (next == goal_) {
@@ -300,11 +303,11 @@ void CostToGo::BackwardSearch::add_onward(Estimate& estimate, int next) {
   const Estimate onward{n.seconds, n.heading, false, reverse_seconds(next)};
   estimate.seconds = translation + onward.with_rotation(estimate.heading, motion_);
   estimate.reverse_seconds = translation + onward.with_rotation(back, motion_);
-  if (motion_.wait_before_move <= 0.0 || angle_between(estimate.heading, n.heading) > kSameHeading) return;
+  const double once = motion_.wait_before_move + motion_.linear_inertia.loss(length, motion_.linear_speed);
+  if (once <= 0.0 || angle_between(estimate.heading, n.heading) > kSameHeading) return;
   // A translation that goes on is one.
-  estimate.seconds = std::min(estimate.seconds, translation + onward.seconds - motion_.wait_before_move);
-  estimate.reverse_seconds =
-      std::min(estimate.reverse_seconds, translation + onward.reverse_seconds - motion_.wait_before_move);
+  estimate.seconds = std::min(estimate.seconds, translation + onward.seconds - once);
+  estimate.reverse_seconds = std::min(estimate.reverse_seconds, translation + onward.reverse_seconds - once);
 }
 
 /// Makes the translation to `next` the first one from the vertex.

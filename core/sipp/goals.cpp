@@ -82,8 +82,13 @@ std::vector<LabelId> path_to(LabelId last, const SearchState& state) {
   return path;
 }
 
-void append(Trajectory& trajectory, const TimedSegment& move, bool reverse) {
+void append(Trajectory& trajectory, const TimedSegment& move, const std::optional<SpeedProfile>& profile,
+            bool reverse) {
   trajectory.moves.push_back(move);
+  if (profile) {
+    trajectory.profiles.resize(trajectory.moves.size());
+    trajectory.profiles.back() = profile;
+  }
   if (!reverse) return;
   trajectory.reverse.resize(trajectory.moves.size(), false);
   trajectory.reverse.back() = true;
@@ -97,7 +102,7 @@ void append_pieces(Trajectory& trajectory, const std::vector<DriveZones::Piece>&
   for (const DriveZones::Piece& piece : pieces) {
     const double t_end = &piece == &pieces.back() ? to.arrival : to.departure + piece.end;
     const bool goes_on = continues || &piece != &pieces.front();
-    if (goes_on && &piece == &pieces.front()) {
+    if (goes_on && &piece == &pieces.front() && !piece.profile) {
       TimedSegment& last = trajectory.moves.back();
       const double speed = last.path.length() / last.duration();
       if (std::abs(speed - piece.linear_speed) <= kSameSpeed * speed) {
@@ -106,7 +111,7 @@ void append_pieces(Trajectory& trajectory, const std::vector<DriveZones::Piece>&
         continue;
       }
     }
-    append(trajectory, {piece.path, to.departure + piece.begin, t_end}, to.reverse);
+    append(trajectory, {piece.path, to.departure + piece.begin, t_end}, piece.profile, to.reverse);
     if (!goes_on) continue;
     trajectory.goes_on.resize(trajectory.moves.size(), false);
     trajectory.goes_on.back() = true;
@@ -276,13 +281,13 @@ void Goals::append_move(Trajectory& trajectory, const Label& from, const Label& 
   const bool continues = from.by_translation && to.departure == from.arrival && from.reverse == to.reverse &&
                          angle_between(from.heading, to.heading) <= kSameHeading;
   const Segment way{state_.places[from.place].position, state_.places[to.place].position};
-  if (space_.vertices().limit_speeds()) {
-    append_pieces(trajectory, space_.vertices().zones()->pieces(way.from, way.to), to, continues);
+  if (space_.vertices().limit_speeds() || space_.vertices().motion().linear_inertia.any()) {
+    append_pieces(trajectory, space_.vertices().pieces(way), to, continues);
   } else if (continues) {
     trajectory.moves.back().path.to = way.to;
     trajectory.moves.back().t_end = to.arrival;
   } else {
-    append(trajectory, {way, to.departure, to.arrival}, to.reverse);
+    append(trajectory, {way, to.departure, to.arrival}, std::nullopt, to.reverse);
   }
 }
 

@@ -193,6 +193,15 @@ bool Vertices::linked(const OwnVertex& own, int vertex) {
   return std::binary_search(own.links.begin(), own.links.end(), vertex);
 }
 
+std::vector<DriveZones::Piece> Vertices::pieces(const Segment& path) const {
+  if (limit_speeds()) return zones_->pieces(path.from, path.to);
+  DriveZones::Piece piece{path, motion_.linear_speed, 0.0, motion_.translation_time(path.length())};
+  if (motion_.linear_inertia.any()) {
+    piece.profile = fastest_profile(path.length(), motion_.linear_speed, motion_.linear_inertia);
+  }
+  return {piece};
+}
+
 bool Vertices::is_free(int from, int to) const {
   if (is_inside(from) || is_inside(to)) return leads_out(from, to);
   if (is_own(from)) return may_move(own_[own_index(from)], position(to), radius(to));

@@ -95,9 +95,13 @@ class Vertices {
   }
   /// Seconds to turn at a vertex.
   double rotation_time(int vertex, double from, double to) const {
-    return limit_speeds() ? angle_between(from, to) / zones_->angular_speed_at(position(vertex))
+    return limit_speeds() ? motion_.angular_inertia.time(angle_between(from, to),
+                                                         zones_->angular_speed_at(position(vertex)))
                           : motion_.rotation_time(from, to);
   }
+  /// The pieces of a straight translation from rest to rest, seconds from its beginning: between the borders
+  /// of speed zones.
+  std::vector<DriveZones::Piece> pieces(const Segment& path) const;
   /// The greatest linear speed at a vertex, metres per second.
   double linear_speed(int vertex) const {
     return limit_speeds() ? zones_->linear_speed_at(position(vertex)) : motion_.linear_speed;

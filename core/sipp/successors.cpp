@@ -100,7 +100,8 @@ EdgeId Successors::add_edge(LabelId via, PlaceId target, bool with_shortcut, boo
   // Past a slow zone, the way round may be the faster one.
   const bool is_slower =
       zones_ != nullptr && shortcut.ready + shortcut.duration > local.ready + local.duration + kSameTime;
-  with_shortcut = with_shortcut && !is_slower;
+  const bool bends = !vertices_.any_angle() && angle_between(shortcut.heading, local.heading) > kSameHeading;
+  with_shortcut = with_shortcut && !is_slower && !bends;
   if (!with_shortcut) shortcut = Move{};
   return state_.edges.push_back(
       {local, shortcut, via, target, with_shortcut ? Edge::Sight::unknown : Edge::Sight::blocked});
@@ -121,13 +122,14 @@ inline Move Successors::move_between(LabelId from, PlaceId target, bool reverse)
     rotation = motion_.rotation_time(label.heading, move.heading);
   } else {
     move.duration = zones_->translation_time(here.position, there.position);
-    rotation = angle_between(label.heading, move.heading) / zones_->angular_speed_at(here.position);
+    rotation = motion_.angular_inertia.time(angle_between(label.heading, move.heading),
+                                            zones_->angular_speed_at(here.position));
   }
   if (label.parent == LabelId::none && space_.any_heading_at_start()) rotation = 0.0;
   move.ready = label.arrival + rotation + motion_.wait_before_move;
   move.latest = changes_radius_ ? goals_.latest_departure(label) : state_.intervals[label.interval].end;
   move.continues_straight = label.by_translation && label.reverse == reverse &&
-                            motion_.wait_before_move > 0.0 &&
+                            motion_.wait_before_move > 0.0 && !motion_.linear_inertia.any() &&
                             angle_between(label.heading, move.heading) <= kSameHeading;
   move.arrival = label.arrival;
   return move;
@@ -158,22 +160,41 @@ std::optional<double> Successors::earliest_departure(const OpenEntry& entry,
   return departure(path, move.duration, begin, latest, footprint);
 }
 
+namespace {
+
+/// The parts of a move in which its acceleration is constant, in seconds from its departure.
+std::vector<TimedSegment> parts_of(const std::vector<DriveZones::Piece>& pieces) {
+  std::vector<TimedSegment> parts;
+  for (const DriveZones::Piece& piece : pieces) {
+    const TimedSegment move{piece.path, piece.begin, piece.end};
+    if (!piece.profile) {
+      parts.push_back(move);
+      continue;
+    }
+    for (const TimedSegment& phase : phases(move, *piece.profile)) parts.push_back(phase);
+  }
+  return parts;
+}
+
+}  // namespace
+
 std::optional<double> Successors::departure(const Segment& path, double duration, double t_min, double t_max,
                                             const Footprint& footprint) const {
-  if (zones_ != nullptr) {
-    const std::vector<DriveZones::Piece> pieces = zones_->pieces(path.from, path.to);
-    if (pieces.size() > 1) return departure_of(pieces, t_min, t_max, footprint);
+  if (zones_ != nullptr || motion_.linear_inertia.any()) {
+    const std::vector<TimedSegment> parts = parts_of(vertices_.pieces(path));
+    if (parts.size() > 1 || parts.front().ramp != 0.0) return departure_of(parts, t_min, t_max, footprint);
   }
   return table_.earliest_departure(footprint, path, duration, t_min, t_max);
 }
 
-/// The earliest departure of a move of several pieces, which follow each other without a stop.
-std::optional<double> Successors::departure_of(const std::vector<DriveZones::Piece>& pieces, double t_min,
+/// The earliest departure of a move of several parts, which follow each other without a stop.
+std::optional<double> Successors::departure_of(const std::vector<TimedSegment>& parts, double t_min,
                                                double t_max, const Footprint& footprint) const {
   double t = t_min;
-  for (std::size_t k = 0; k < pieces.size();) {
-    const auto& [path, speed, begin, end] = pieces[k];
-    const auto earliest = table_.earliest_departure(footprint, path, end - begin, t + begin, t_max + begin);
+  for (std::size_t k = 0; k < parts.size();) {
+    const auto& [path, begin, end, ramp] = parts[k];
+    const auto earliest =
+        table_.earliest_departure(footprint, path, end - begin, t + begin, t_max + begin, ramp);
     if (!earliest) return std::nullopt;
     if (*earliest <= t + begin) {
       ++k;

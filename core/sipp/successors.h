@@ -75,7 +75,7 @@ class Successors {
 
   std::optional<double> departure(const Segment& path, double duration, double t_min, double t_max,
                                   const Footprint& footprint) const;
-  std::optional<double> departure_of(const std::vector<DriveZones::Piece>& pieces, double t_min, double t_max,
+  std::optional<double> departure_of(const std::vector<TimedSegment>& parts, double t_min, double t_max,
                                      const Footprint& footprint) const;
 
   const ReservationTable& table_;
@@ -149,7 +149,9 @@ void Successors::visit_edges(LabelId from, Visit&& visit) {
     if (!view.allow(vertex, neighbour)) return;
     const PlaceId target = place_of(neighbour, stage);
     if (state_.places[target].never_safe()) return;
-    const bool with_shortcut = view.any_angle() && before >= 0 && neighbour != before;
+    // With inertia, a stop in a straight line costs time, on any lattice.
+    const bool has_shortcuts = view.any_angle() || motion_.linear_inertia.any();
+    const bool with_shortcut = has_shortcuts && before >= 0 && neighbour != before;
     visit_edge(from, target, state_.places[target].first_interval, with_shortcut, visit);
   });
 }

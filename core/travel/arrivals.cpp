@@ -85,6 +85,9 @@ class Kind {
       robot.linear_speed = like.linear_speed;
       robot.angular_speed = like.angular_speed;
       robot.may_reverse = like.may_reverse;
+      robot.linear_acceleration = like.linear_acceleration;
+      robot.linear_deceleration = like.linear_deceleration;
+      robot.angular_acceleration = like.angular_acceleration;
       robot.start = from.pose;
       robot.goal = Goal{from.pose.position, std::nullopt};  // a robot that has a goal gets a way out of zones
       robot.invalid = !checks_starts || !from.is_start;
@@ -135,7 +138,14 @@ class Legs {
     for (std::size_t k = 0; k < problem_.zones().size(); ++k) {
       if (problem_.zones()[k].is_for(robot)) zones.push_back(k);
     }
-    const Key key{radius, like.linear_speed, like.angular_speed, like.may_reverse, zones};
+    const Key key{radius,
+                  like.linear_speed,
+                  like.angular_speed,
+                  like.linear_acceleration,
+                  like.linear_deceleration,
+                  like.angular_acceleration,
+                  like.may_reverse,
+                  zones};
     const auto [found, is_new] = known_.emplace(key, kinds_.size());
     if (!is_new) return found->second;
     kinds_.emplace_back(robot, radius);
@@ -156,7 +166,7 @@ class Legs {
   double seconds(const Leg& leg) const { return kinds_[leg.kind].seconds(leg); }
 
  private:
-  using Key = std::tuple<double, double, double, bool, std::vector<std::size_t>>;
+  using Key = std::tuple<double, double, double, double, double, double, bool, std::vector<std::size_t>>;
 
   const Problem& problem_;
   std::vector<Kind> kinds_;

@@ -13,8 +13,66 @@ Position position_at(const Leg& leg, double t) {
   if (t <= leg.t_begin) return leg.from;
   if (t >= leg.t_end) return leg.to;
   const double fraction = (t - leg.t_begin) / (leg.t_end - leg.t_begin);
-  return leg.from + fraction * (leg.to - leg.from);
+  return leg.from + fraction * (leg.to - leg.from) - fraction * (1.0 - fraction) * leg.bend;
 }
+
+Leg part_of(const Leg& leg, double begin, double end) {
+  const double duration = leg.t_end - leg.t_begin;
+  const bool bends = leg.bend != Position(0.0, 0.0);
+  const double share = bends ? (end - begin) / duration : 0.0;  // a leg that bends has an end
+  return {begin, end, position_at(leg, begin), position_at(leg, end), share * share * leg.bend};
+}
+
+namespace {
+
+/// Adds a part of a translation, in which the speed changes evenly, and returns its length in metres.
+class ProfileLegs {
+ public:
+  /// Divides a translation with a profile; if the profile does not fit, the speed is constant.
+  static std::vector<Leg> of(const Action& action, const Robot& robot) {
+    const Leg whole{action.t_start, std::max(action.t_start, action.t_end), action.from.position,
+                    action.to.position};
+    const double length = (whole.to - whole.from).norm();
+    if (!action.profile || action.type != Action::Type::translate || length <= 0.0) return {whole};
+    const SpeedProfile& profile = *action.profile;
+    const double gains = (profile.cruise - profile.start) / robot.linear_acceleration;
+    const double loses = (profile.cruise - profile.end) / robot.linear_deceleration;
+    const double first = 0.5 * (profile.start + profile.cruise) * gains;
+    const double last = 0.5 * (profile.cruise + profile.end) * loses;
+    const double cruises = whole.t_end - whole.t_begin - gains - loses;
+    constexpr double kRounded = 1e-6;  // seconds and metres
+    const bool fits =
+        gains >= 0.0 && loses >= 0.0 && cruises >= -kRounded && first + last <= length + kRounded;
+    if (!fits) return {whole};
+    ProfileLegs legs(whole, length);
+    if (gains > 0.0) legs.add(first, gains, profile.start, profile.cruise);
+    if (cruises > 0.0 && first + last < length) legs.add(length - first - last, cruises, 0.0, 0.0);
+    if (loses > 0.0) legs.add(last, loses, profile.cruise, profile.end);
+    if (legs.legs_.empty()) return {whole};
+    legs.legs_.back().t_end = whole.t_end;
+    legs.legs_.back().to = whole.to;
+    return std::move(legs.legs_);
+  }
+
+ private:
+  ProfileLegs(const Leg& whole, double length)
+      : direction_((whole.to - whole.from) / length), t_(whole.t_begin), here_(whole.from) {}
+
+  void add(double length, double seconds, double from_speed, double to_speed) {
+    const Position there = here_ + length * direction_;
+    const double bend = 0.5 * (to_speed - from_speed) * seconds;
+    legs_.push_back({t_, t_ + seconds, here_, there, bend * direction_});
+    t_ += seconds;
+    here_ = there;
+  }
+
+  Position direction_;
+  double t_;
+  Position here_;
+  std::vector<Leg> legs_;
+};
+
+}  // namespace
 
 std::vector<Leg> execute(const Robot& robot, const RobotPlan* plan) {
   std::vector<Leg> legs;
@@ -29,14 +87,16 @@ std::vector<Leg> execute(const Robot& robot, const RobotPlan* plan) {
       legs.push_back({now, action.t_start, here, here});
       now = action.t_start;
     }
-    const Leg planned{action.t_start, std::max(action.t_start, action.t_end), action.from.position,
-                      action.to.position};
-    // An action that lies entirely in the past, or takes no time, is executed at once.
-    const Position from = planned.t_end > now ? position_at(planned, now) : planned.from;
-    const double until = std::max(now, planned.t_end);
-    legs.push_back({now, until, from, planned.to});
-    now = until;
-    here = planned.to;
+    for (const Leg& planned : ProfileLegs::of(action, robot)) {
+      // What lies entirely in the past, or takes no time, is executed at once.
+      if (planned.t_end > now) {
+        legs.push_back(part_of(planned, std::max(now, planned.t_begin), planned.t_end));
+      } else {
+        legs.push_back({now, now, planned.from, planned.to});
+      }
+      now = legs.back().t_end;
+    }
+    here = action.to.position;
   }
   legs.push_back({now, std::numeric_limits<double>::infinity(), here, here});
   return legs;
@@ -159,10 +219,8 @@ std::vector<Leg> take_until(double t, std::vector<Leg>& legs) {
   legs.erase(legs.begin(), legs.begin() + static_cast<std::ptrdiff_t>(whole));
   if (!legs.empty() && legs.front().t_begin < t) {
     Leg& divided = legs.front();
-    const Position there = position_at(divided, t);
-    taken.push_back({divided.t_begin, t, divided.from, there});
-    divided.t_begin = t;
-    divided.from = there;
+    taken.push_back(part_of(divided, divided.t_begin, t));
+    divided = part_of(divided, t, divided.t_end);
   }
   return taken;
 }

@@ -15,17 +15,23 @@
 
 namespace fleetplan::core {
 
-/// A time interval in which a robot's centre moves straight at constant speed, or stands. Map frame, metres,
-/// seconds.
+/// A time interval in which a robot's centre moves straight at constant acceleration, mostly 0, or stands.
+/// Map frame, metres, seconds.
 struct Leg {
   double t_begin = 0.0;
   double t_end = 0.0;  // infinity for the final rest; t_begin for a leg that takes no time
   Position from{0.0, 0.0};
   Position to{0.0, 0.0};
+  /// Half the acceleration times the square of the duration. After a share f of the time, the centre is
+  /// f (1 - f) bend behind where it would be at constant speed.
+  Position bend{0.0, 0.0};
 };
 
 /// Returns the position of the centre at `t`: exactly `from` up to t_begin, exactly `to` from t_end on.
 Position position_at(const Leg& leg, double t);
+
+/// Returns the part of a leg from `begin` to `end`, which are within it; both may be the same.
+Leg part_of(const Leg& leg, double begin, double end);
 
 /// Returns the legs of a robot from t = 0 to infinity, in order, each beginning when the previous one ends.
 /// Without a plan (null) the robot executes its committed actions, unless it is invalid. Without actions it

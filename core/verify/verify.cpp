@@ -53,7 +53,7 @@ class FleetCheck {
       return;
     }
     const Tolerance& tolerance = rules_.tolerances[index];
-    const ZonesOfRobot zones(request_.zones, index, request_.robots[index].linear_speed);
+    const ZonesOfRobot zones(request_.zones, index, request_.robots[index]);
     if (const auto less = without_goals_put_off(request_.robots[index], plan, zones, tolerance)) {
       check_alone(index, less->robot, plan != nullptr ? &less->plan : nullptr, field, zones);
     } else {

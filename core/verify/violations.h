@@ -33,6 +33,9 @@ inline constexpr std::size_t kMostViolations = 10'000;
 /// - speed: faster than the robot. The speed, and the robot's; or for an action without duration the
 ///   duration, and the shortest possible one. Also a translation that leads off the line of its heading
 ///   (forwards or backwards): by how many metres, and 0.
+/// - profile: a robot whose acceleration is limited has no profile of speed, or one that it cannot follow or
+///   that does not lead from one pose to the other. A speed, and the required one; or the length (or angle)
+///   that the profile covers, and that of the action; or a duration, and the shortest possible one.
 /// - wrong_start, wrong_goal: the distance of the first or the resting pose from the required one, and 0.
 ///   Parked robots must rest at their start or committed end, in any heading. A robot without a plan is
 ///   unplanned, which is allowed.
@@ -55,6 +58,7 @@ struct Violation {
     obstacle_collision,
     discontinuity,
     speed,
+    profile,
     wrong_start,
     wrong_goal,
     wrong_visit,

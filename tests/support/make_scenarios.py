@@ -369,6 +369,42 @@ def wing_zones(building):
                  linear_speed=0.4, angular_speed=0.8)]
 
 
+def warehouse_inertia():
+    """The warehouse with three makes, none of which starts or stops at once."""
+    request = warehouse()
+    makes = [("tote", {"linear_acceleration": 1.0, "linear_deceleration": 1.5, "angular_acceleration": 6.0}),
+             ("tugger", {"linear_speed": 1.2, "linear_acceleration": 0.4, "linear_deceleration": 0.8,
+                         "angular_acceleration": 3.0}),
+             ("pallet", {"linear_acceleration": 0.3, "linear_deceleration": 0.5, "angular_acceleration": 2.0})]
+    for index, each in enumerate(request["robots"]):
+        kind, limits = makes[2 if index % 4 == 3 else index % 4 == 1]
+        each["id"] = f"{kind}-{index + 1:02}"
+        each.update(limits)
+    return request
+
+
+def forklifts():
+    """A depot where forklifts with slow brakes fetch pallets from racks, which make them larger, and stack them."""
+    grid = Map(64, 40, 0.5)
+    for row in (8, 16, 24, 32):  # racks with aisles of 6 cells between them
+        grid.block(16, row, 32, 2)
+    lift = {"radius": 0.5, "linear_speed": 2.5, "angular_speed": 1.5, "linear_acceleration": 0.6,
+            "linear_deceleration": 0.4, "angular_acceleration": 1.0}
+    robots = []
+    for index in range(10):
+        left = index % 2 == 0
+        lane = 3.0 + 3.4 * (index // 2)
+        beside_rack = [5.75, 7.25, 9.75, 11.25, 13.75, 15.25, 17.75, 7.25, 11.25, 15.25][index]
+        made = robot(f"lift-{index + 1:02}", pose(2.0 if left else 30.0, lane, 0.0 if left else PI), **lift)
+        made["goals"] = [
+            {"x": 9.5 + 1.45 * index, "y": beside_rack, "service": 6.0, "radius_after": 0.7},
+            {"x": 30.0 if left else 2.0, "y": lane, "theta": 0.0 if left else PI, "service": 4.0,
+             "radius_after": 0.5},
+        ]
+        robots.append(made)
+    return {"map": grid.json(), "robots": robots, "options": {"time_budget_ms": 10000}}
+
+
 SCENARIOS = [  # in display order
     ("corridor-swap", "Corridor swap", corridor_swap,
      "Two robots swap the ends of a corridor with a single passing bay."),
@@ -382,6 +418,10 @@ SCENARIOS = [  # in display order
      "Six small robots on a polygon of 5 cm cells, with inflated radii and waits before moves for safe execution."),
     ("warehouse", "Warehouse", warehouse,
      "Forty tote and pallet robots between shelves, aisles and pick stations."),
+    ("warehouse-inertia", "Warehouse with inertia", warehouse_inertia,
+     "The same warehouse with robots of three makes, which need time to start and to stop."),
+    ("forklifts", "Forklifts", forklifts,
+     "Ten forklifts with slow brakes fetch pallets, which make them larger, and stack them on the other side."),
     ("hall-100", "Hall with 100 robots", hall_100,
      "A hundred robots of three types in an empty hall of 64 m by 64 m, starts and goals at random."),
     ("partly-solvable", "Partly solvable", partly_solvable,

@@ -1,5 +1,6 @@
 // The dependencies of a plan, see docs/execution.md, that concern one action of a robot. Pure.
 
+import { timeAtShare } from "./profile.js";
 import { poseInAction } from "./timeline.js";
 
 /** @import {Action} from "./types.js" */
@@ -29,7 +30,7 @@ export function dependenciesOfAction(dependencies, robot, action) {
 export function momentOf(actions, { action, progress }) {
   const found = actions[action];
   if (found === undefined) return null;
-  const t = found.t_start + (found.t_end - found.t_start) * progress;
+  const t = timeAtShare(found, progress);
   const { x, y } = poseInAction(found, t);
   return { x, y, t };
 }

@@ -1,6 +1,9 @@
 // The centre of a robot over time, as a polyline: knots (t, x, y) with constant velocity in between. Two
 // knots at one time are a jump, which occurs only in faulty plans. Pure. Times in seconds, lengths in metres.
 
+import { knotsOf } from "./profile.js";
+import { poseInAction } from "./timeline.js";
+
 const CONTACT = 5e-7; // metres: disks that overlap by no more are in contact
 
 /**
@@ -9,9 +12,13 @@ const CONTACT = 5e-7; // metres: disks that overlap by no more are in contact
  */
 export function motionOf(robot, actions, radii = []) {
   const knots = [];
-  for (const { t_start, t_end, from, to } of actions) {
-    addKnot(knots, t_start, from);
-    addKnot(knots, t_end, to);
+  for (const action of actions) {
+    if (action.changes) {
+      for (const t of knotsOf(action)) addKnot(knots, t, poseInAction(action, t));
+    } else {
+      addKnot(knots, action.t_start, action.from);
+      addKnot(knots, action.t_end, action.to);
+    }
   }
   if (knots.length === 0) knots.push(0, robot.start.x, robot.start.y);
   return { radius: robot.radius, knots: Float64Array.from(knots), radii };

@@ -7,6 +7,7 @@ import { preparedCells, readRows } from "./grid_cells.js";
 import { robotsOf } from "./listed.js";
 import { radiusAt } from "./motion.js";
 import { readObstacles } from "./moving_obstacles.js";
+import { inertiaOf, withChanges } from "./profile.js";
 import { doingAt, pathOf, poseAt } from "./timeline.js";
 import { readZones } from "./zones.js";
 
@@ -65,6 +66,7 @@ function readRobots(request) {
       via: goals.slice(0, -1),
       radiiAfter: goalsOf(robot).map((each) => (positive(each?.radius_after) ? each.radius_after : null)),
       committed,
+      inertia: inertiaOf(robot, request.robot_defaults),
     });
   });
   return robots;
@@ -116,7 +118,8 @@ export function readTracks(scene, answer, outdated = null) {
       tracks.set(robot.id, outdatedTrack(plans.get(robot.id)));
       continue;
     }
-    const actions = (plans.get(robot.id) ?? failures.get(robot.id))?.actions ?? [];
+    const listed = (plans.get(robot.id) ?? failures.get(robot.id))?.actions ?? [];
+    const actions = withChanges(listed, robot.inertia);
     tracks.set(robot.id, {
       status: statusOf(robot, plans, failures),
       actions,

@@ -1,6 +1,8 @@
 // Where a robot is at time t, in continuous time. Pure: no DOM, no clock. Times in seconds from the start of
 // the plan, poses {x, y, theta} in metres and radians.
 
+import { shareAt } from "./profile.js";
+
 const FULL_TURN = 2 * Math.PI;
 
 /** The angle in (-pi, pi]. */
@@ -29,8 +31,8 @@ export function actionIndexAt(actions, t) {
 
 /** The pose within one action; t is clamped to the action. */
 export function poseInAction(action, t) {
-  const { from, to, t_start, t_end } = action;
-  const share = t_end > t_start ? Math.min(1, Math.max(0, (t - t_start) / (t_end - t_start))) : 1;
+  const { from, to } = action;
+  const share = shareAt(action, t);
   if (share === 1) return { x: to.x, y: to.y, theta: to.theta };
   return {
     x: from.x + (to.x - from.x) * share,

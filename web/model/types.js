@@ -56,10 +56,12 @@
 
 /**
  * An action; `goal`, of a wait, is the number of the goal that is served, from 0; `reverse`, of a translation, is
- * whether it goes backwards.
+ * whether it goes backwards. `profile` has its speeds if they change, and `changes` the seconds of its changes.
  * @typedef {{type: "rotate" | "translate" | "wait", t_start: number, t_end: number, from: Pose, to: Pose,
- * goal?: number, reverse?: boolean}} Action
+ * goal?: number, reverse?: boolean, profile?: {start: number, cruise: number, end: number},
+ * changes?: {rise: number, fall: number}}} Action
  */
+/** @typedef {{rise: number, fall: number, turn: number}} Inertia see profile.js */
 /** @typedef {{goal: number, t_arrive: number | null, t_leave: number | null}} Visit without times if the goal is not reached */
 /** @typedef {{robot: string, cost: number, lower_bound?: number, actions: Action[], visits?: Visit[], stuck?: boolean,
  * blocked_by?: string[], blocked_by_total?: number}} Plan */
@@ -167,6 +169,7 @@
  * @property {({x: number, y: number, theta: number | null} | null)[]} via
  * @property {(number | null)[]} radiiAfter
  * @property {Position[]} committed
+ * @property {Inertia} inertia
  */
 
 /** @typedef {{id: string, radius: number, motion: {t: number, x: number, y: number}[], stays: boolean}}

@@ -30,6 +30,12 @@ double turn_between(const core::Pose& a, const core::Pose& b) {
   return core::angle_between(a.theta, b.theta);
 }
 
+/// Returns what a profile has to cover: metres, or radians of a rotation.
+double amount_of(const core::Action& action) {
+  return action.type == core::Action::Type::rotate ? turn_between(action.from, action.to)
+                                                   : distance_between(action.from, action.to);
+}
+
 /// Returns how far a translation leads off the line of its heading, metres. A robot may drive backwards.
 double sideways(const core::Action& action) {
   const core::Position d = action.to.position - action.from.position;
@@ -46,10 +52,25 @@ std::string seconds(double t) { return number_text(t) + " s"; }
 
 }  // namespace
 
+double covered_by_profile(const core::Action& action) {
+  const core::SpeedProfile& profile = *action.profile;
+  const double cruises = action.t_end - action.t_start - profile.rise_time() - profile.fall_time();
+  return profile.rise_length() + profile.cruise * cruises + profile.fall_length();
+}
+
+bool profile_fits(const core::Action& action) {
+  const core::SpeedProfile& profile = *action.profile;
+  const double duration = action.t_end - action.t_start;
+  return duration >= profile.rise_time() + profile.fall_time() - kTolerance &&
+         std::abs(covered_by_profile(action) - amount_of(action)) <= kTolerance * (1.0 + profile.cruise);
+}
+
 ActionChain::ActionChain(const ActionsOwner& owner)
     : linear_speed_(owner.linear_speed),
       angular_speed_(owner.angular_speed),
       may_reverse_(owner.may_reverse),
+      linear_inertia_(owner.linear_inertia),
+      angular_inertia_(owner.angular_inertia),
       pose_(owner.start) {}
 
 std::string ActionChain::name() const { return "Action " + std::to_string(count_) + " (from 0)"; }
@@ -62,10 +83,18 @@ core::Action ActionChain::append(core::Action action, const JsonReader& item) {
   if (item.fault_count() == before) {
     action = joined(action);
     check_speed(action, item);
+    if (action.profile) {
+      const bool turns = action.type == core::Action::Type::rotate;
+      action.profile->inertia = turns ? angular_inertia_ : linear_inertia_;
+      check_profile(action, item);
+    }
+    check_speeds_meet(action, item);
     if (action.reverse) check_reverse(action, item);
   }
   now_ = action.t_end;
   pose_ = action.to;
+  const bool measured = action.type == core::Action::Type::translate && !action.profile;
+  speed_ = measured ? std::nullopt : std::optional(action.profile ? action.profile->end : 0.0);
   ++count_;
   return action;
 }
@@ -73,6 +102,7 @@ core::Action ActionChain::append(core::Action action, const JsonReader& item) {
 void ActionChain::skip() {
   now_.reset();
   pose_.reset();
+  speed_.reset();
   ++count_;
 }
 
@@ -144,6 +174,45 @@ void ActionChain::check_speed(const core::Action& action, const JsonReader& item
   });
 }
 
+/// The profile has to cover the action, in its time.
+void ActionChain::check_profile(const core::Action& action, const JsonReader& item) const {
+  const core::SpeedProfile& profile = *action.profile;
+  const bool turns = action.type == core::Action::Type::rotate;
+  const JsonReader member = item.find("profile");
+  const auto& speed = turns ? angular_speed_ : linear_speed_;
+  if (speed && profile.cruise > *speed + kTolerance) {
+    member.fault(fault::kProfile, [&] {
+      return name() + " has a profile with a cruise speed of " + number_text(profile.cruise) +
+             ", but the robot's speed is " + number_text(*speed) + "; lower it.";
+    });
+    return;
+  }
+  if (profile_fits(action)) return;
+  const double amount = amount_of(action);
+  const double duration = action.t_end - action.t_start;
+  const double changes = profile.rise_time() + profile.fall_time();
+  member.fault(fault::kProfile, [&] {
+    return name() + (turns ? " rotates " : " translates ") + number_text(amount) + (turns ? " rad" : " m") +
+           " in " + seconds(duration) + ", but with its profile and the robot's accelerations " +
+           (duration < changes - kTolerance ? "changing speed alone takes " + seconds(changes)
+                                            : "it would be " + number_text(covered_by_profile(action))) +
+           "; give the speeds that belong to it, or leave the profile out for measured motion.";
+  });
+}
+
+/// A robot with profiles does not change its speed at once.
+void ActionChain::check_speeds_meet(const core::Action& action, const JsonReader& item) const {
+  const bool measured = action.type == core::Action::Type::translate && !action.profile;
+  if (!speed_ || measured) return;
+  const double speed = action.profile ? action.profile->start : 0.0;
+  if (std::abs(speed - *speed_) <= kTolerance) return;
+  const JsonReader place = action.profile ? item.find("profile").find("start") : item;
+  place.fault(fault::kProfile, [&] {
+    return name() + " begins at a speed of " + number_text(speed) + ", but the action before ends at " +
+           number_text(*speed_) + "; speeds of profiles must be contiguous.";
+  });
+}
+
 void ActionChain::check_reverse(const core::Action& action, const JsonReader& item) const {
   if (may_reverse_ == false) {
     item.find("reverse").fault(fault::kSpeed, [&] {
@@ -169,8 +238,9 @@ core::Action ActionChain::joined(core::Action action) const {
 
 namespace {
 
-constexpr std::array<std::string_view, 7> kActionMembers{"type", "t_start", "t_end",  "from",
-                                                         "to",   "goal",    "reverse"};
+constexpr std::array<std::string_view, 8> kActionMembers{"type", "t_start", "t_end",   "from",
+                                                         "to",   "goal",    "reverse", "profile"};
+constexpr std::array<std::string_view, 3> kProfileMembers{"start", "cruise", "end"};
 constexpr std::array<std::string_view, 3> kPoseMembers{"x", "y", "theta"};
 constexpr std::array<std::string_view, 3> kTypes{"rotate", "translate", "wait"};  // see core::Action::Type
 
@@ -179,6 +249,24 @@ core::Pose parse_pose(const JsonReader& member) {
   const double x = pose.require("x").number(kCoordinate).value_or(0.0);
   const double y = pose.require("y").number(kCoordinate).value_or(0.0);
   return {{x, y}, pose.require("theta").number(kAnyAngle).value_or(0.0)};
+}
+
+/// Reads the profile of an action; none with a fault.
+std::optional<core::SpeedProfile> parse_profile(const JsonReader& member) {
+  const std::size_t before = member.fault_count();
+  const JsonReader json = member.object(kProfileMembers);
+  core::SpeedProfile profile;
+  profile.start = json.require("start").number(kProfileSpeed).value_or(0.0);
+  profile.cruise = json.require("cruise").number(kProfileSpeed).value_or(0.0);
+  profile.end = json.require("end").number(kProfileSpeed).value_or(0.0);
+  if (member.fault_count() != before) return std::nullopt;
+  if (profile.cruise <= 0.0 || profile.cruise < std::max(profile.start, profile.end)) {
+    member.fault(fault::kProfile, [] {
+      return "The cruise speed of a profile must be greater than 0, and no less than its start and end.";
+    });
+    return std::nullopt;
+  }
+  return profile;
 }
 
 bool gives_back(const core::Pose& map, const core::Pose& world, const WorldFrame& frame) {
@@ -207,6 +295,12 @@ core::Action parse_action(const JsonReader& item, const Range& times) {
     goal.fault(fault::kUnknownKey, [] { return "goal is a member of wait actions only; remove it."; });
   } else if (const auto number = goal.natural(kGreatestIndex)) {
     action.goal = *number;
+  }
+  const JsonReader profile = json.find("profile");
+  if (profile && type && action.type == core::Action::Type::wait) {
+    profile.fault(fault::kUnknownKey, [] { return "A wait has no profile; remove it."; });
+  } else if (profile) {
+    action.profile = parse_profile(profile);
   }
   const JsonReader reverse = json.find("reverse");
   action.reverse = reverse.boolean().value_or(false);
@@ -243,6 +337,12 @@ std::optional<ParsedActions> parse_actions(const JsonReader& list, const Actions
     if (items.fault_count() != before) continue;
     if (!gives_back(action, world, frame)) read.received.keep(read.actions.size(), world);
     read.actions.push_back(action);
+  }
+  if (items.fault_count() == before && !chain.ends_at_rest()) {
+    items.fault(fault::kProfile, [] {
+      return "The last action ends at a speed; let the robot come to rest: nothing else is known of what "
+             "follows.";
+    });
   }
   if (items.fault_count() != before) return std::nullopt;
   return read;

@@ -8,13 +8,25 @@
 #include "api/json/json_reader.h"
 #include "api/request/fleet/received_robot.h"
 #include "api/request/world_frame.h"
+#include "core/geometry/tolerance.h"
 #include "core/model/action.h"
 #include "core/model/robot.h"
 
 namespace fleetplan::api {
 
-/// Reads one action, in the world and with its headings as given. Values with a fault are 0.
+/// Reads one action, in the world and with its headings as given. Values with a fault are 0. A profile has
+/// its speeds only, until the robot is known.
 core::Action parse_action(const JsonReader& item, const Range& times);
+
+/// Whether a profile leads over the length (or angle) of its action in its time; and the length that it
+/// covers.
+bool profile_fits(const core::Action& action);
+double covered_by_profile(const core::Action& action);
+
+/// Whether a profile leads over the length (or angle) of its action in its time; and the length that it
+/// covers.
+bool profile_fits(const core::Action& action);
+double covered_by_profile(const core::Action& action);
 
 /// Returns the action in the map frame, with normalised headings.
 core::Action to_map(const core::Action& world, const WorldFrame& frame);
@@ -25,6 +37,8 @@ struct ActionsOwner {
   std::optional<double> linear_speed;   // metres per second
   std::optional<double> angular_speed;  // radians per second
   std::optional<bool> may_reverse = {};
+  core::Inertia linear_inertia = {};
+  core::Inertia angular_inertia = {};
 };
 
 /// The actions of a robot from t = 0 in its start. Each begins exactly when and where the one before ends.
@@ -49,12 +63,15 @@ class ActionChain {
   core::Action append(core::Action action, const JsonReader& item);
   /// Skips an action that could not be read: what follows it is not compared with what precedes it.
   void skip();
+  bool ends_at_rest() const { return speed_.value_or(0.0) <= core::kContactTolerance; }
 
  private:
   void check_times(const core::Action& action, const JsonReader& item) const;
   void check_begin(const core::Action& action, const JsonReader& item) const;
   void check_type(const core::Action& action, const JsonReader& item) const;
   void check_speed(const core::Action& action, const JsonReader& item) const;
+  void check_profile(const core::Action& action, const JsonReader& item) const;
+  void check_speeds_meet(const core::Action& action, const JsonReader& item) const;
   void check_reverse(const core::Action& action, const JsonReader& item) const;
   core::Action joined(core::Action action) const;
   std::string name() const;
@@ -62,9 +79,12 @@ class ActionChain {
   std::optional<double> linear_speed_;
   std::optional<double> angular_speed_;
   std::optional<bool> may_reverse_;
+  core::Inertia linear_inertia_;
+  core::Inertia angular_inertia_;
   std::optional<double> now_ = 0.0;  // seconds; none: unknown, as is the pose
   std::optional<core::Pose> pose_;
-  std::size_t count_ = 0;  // number of the actions before
+  std::optional<double> speed_;  // at the end of the action before; none: unknown
+  std::size_t count_ = 0;        // number of the actions before
 };
 
 }  // namespace fleetplan::api

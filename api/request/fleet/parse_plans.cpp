@@ -97,6 +97,12 @@ std::vector<core::RobotPlan> parse_plans(const JsonReader& member, const std::ve
     core::RobotPlan plan = parse_plan(json, frame);
     if (const auto owner = roster.assign(json.require("robot"))) {
       plan.robot = *owner;
+      const core::Robot& robot = robots[*owner].robot;
+      for (core::Action& action : plan.actions) {
+        if (!action.profile) continue;
+        const bool turns = action.type == core::Action::Type::rotate;
+        action.profile->inertia = turns ? robot.angular_inertia() : robot.linear_inertia();
+      }
       plans.push_back(std::move(plan));
     }
   }

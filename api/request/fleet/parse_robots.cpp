@@ -79,10 +79,13 @@ ParsedGoals parse_goals(const JsonReader& robot, const WorldFrame& frame, Quota&
 
 namespace {
 
-constexpr std::array<std::string_view, 16> kRobotMembers{"id",
+constexpr std::array<std::string_view, 19> kRobotMembers{"id",
                                                          "radius",
                                                          "linear_speed",
                                                          "angular_speed",
+                                                         "linear_acceleration",
+                                                         "linear_deceleration",
+                                                         "angular_acceleration",
                                                          "may_reverse",
                                                          "vicinity",
                                                          "execution_margin",
@@ -95,9 +98,17 @@ constexpr std::array<std::string_view, 16> kRobotMembers{"id",
                                                          "committed",
                                                          "previous",
                                                          "metadata"};
-constexpr std::array<std::string_view, 8> kDefaults{"radius",        "linear_speed", "angular_speed",
-                                                    "may_reverse",   "vicinity",     "execution_margin",
-                                                    "stop_distance", "body_radius"};
+constexpr std::array<std::string_view, 11> kDefaults{"radius",
+                                                     "linear_speed",
+                                                     "angular_speed",
+                                                     "linear_acceleration",
+                                                     "linear_deceleration",
+                                                     "angular_acceleration",
+                                                     "may_reverse",
+                                                     "vicinity",
+                                                     "execution_margin",
+                                                     "stop_distance",
+                                                     "body_radius"};
 
 /// A number that `robot_defaults` can give as well.
 struct Trait {
@@ -109,6 +120,9 @@ struct Traits {
   Trait radius;
   Trait linear_speed;
   Trait angular_speed;
+  Trait linear_acceleration;
+  Trait linear_deceleration;
+  Trait angular_acceleration;
   Trait vicinity;
   Trait execution_margin;
   Trait stop_distance;
@@ -123,10 +137,22 @@ struct TraitRow {
   bool required;
 };
 
-constexpr std::array<TraitRow, 6> kTraitTable{{
+constexpr std::array<TraitRow, 9> kTraitTable{{
     {.name = "radius", .range = kLength, .field = &Traits::radius, .required = true},
     {.name = "linear_speed", .range = kLinearSpeed, .field = &Traits::linear_speed, .required = true},
     {.name = "angular_speed", .range = kAngularSpeed, .field = &Traits::angular_speed, .required = true},
+    {.name = "linear_acceleration",
+     .range = kLinearAcceleration,
+     .field = &Traits::linear_acceleration,
+     .required = false},
+    {.name = "linear_deceleration",
+     .range = kLinearAcceleration,
+     .field = &Traits::linear_deceleration,
+     .required = false},
+    {.name = "angular_acceleration",
+     .range = kAngularAcceleration,
+     .field = &Traits::angular_acceleration,
+     .required = false},
     {.name = "vicinity", .range = kLengthOrZero, .field = &Traits::vicinity, .required = false},
     {.name = "execution_margin",
      .range = kLengthOrZero,
@@ -170,6 +196,9 @@ void take_traits(const Traits& traits, core::Robot& robot) {
   robot.radius = traits.radius.value.value_or(1.0);
   robot.linear_speed = traits.linear_speed.value.value_or(1.0);
   robot.angular_speed = traits.angular_speed.value.value_or(1.0);
+  robot.linear_acceleration = traits.linear_acceleration.value.value_or(core::Robot::kNoLimit);
+  robot.linear_deceleration = traits.linear_deceleration.value.value_or(robot.linear_acceleration);
+  robot.angular_acceleration = traits.angular_acceleration.value.value_or(core::Robot::kNoLimit);
   robot.vicinity = traits.vicinity.value.value_or(0.0);
   robot.may_reverse = traits.may_reverse.value_or(false);
 }
@@ -199,7 +228,9 @@ class RobotReader {
     ActionsOwner owner{.start = std::nullopt,
                        .linear_speed = traits.linear_speed.value,
                        .angular_speed = traits.angular_speed.value,
-                       .may_reverse = robot.may_reverse};
+                       .may_reverse = robot.may_reverse,
+                       .linear_inertia = robot.linear_inertia(),
+                       .angular_inertia = robot.angular_inertia()};
     read.start = json.require("start", "; give {\"x\", \"y\"} and optionally \"theta\"");
     if (const auto start = parse_plain_pose(read.start, frame_)) {
       robot.start = {start->position, start->theta.value_or(0.0)};
@@ -273,9 +304,19 @@ std::vector<ParsedRobot> parse_robots(const JsonReader& robots, const JsonReader
 }
 
 std::optional<core::Robot> parse_lone_robot(const JsonReader& robot) {
-  constexpr std::array<std::string_view, 10> kMembers{
-      "id",       "radius",           "linear_speed",  "angular_speed", "may_reverse",
-      "vicinity", "execution_margin", "stop_distance", "body_radius",   "metadata"};
+  constexpr std::array<std::string_view, 13> kMembers{"id",
+                                                      "radius",
+                                                      "linear_speed",
+                                                      "angular_speed",
+                                                      "linear_acceleration",
+                                                      "linear_deceleration",
+                                                      "angular_acceleration",
+                                                      "may_reverse",
+                                                      "vicinity",
+                                                      "execution_margin",
+                                                      "stop_distance",
+                                                      "body_radius",
+                                                      "metadata"};
   const std::size_t before = robot.fault_count();
   const JsonReader json = robot.object(kMembers);
   if (!json) return std::nullopt;

@@ -169,12 +169,19 @@ class Obstacle(TypedDict):
 _Ends = TypedDict("_Ends", {"from": Pose, "to": Pose})
 
 
+class Profile(TypedDict):
+    start: float
+    cruise: float
+    end: float
+
+
 class Action(_Ends):
     type: ActionType
     t_start: float
     t_end: float
     goal: NotRequired[int]
     reverse: NotRequired[bool]
+    profile: NotRequired[Profile]
 
 
 class GoalAction(TypedDict):
@@ -198,6 +205,9 @@ class RobotDefaults(TypedDict, total=False):
     radius: float
     linear_speed: float
     angular_speed: float
+    linear_acceleration: float
+    linear_deceleration: float
+    angular_acceleration: float
     vicinity: float
     execution_margin: float
     stop_distance: float
@@ -284,7 +294,8 @@ class Fault(TypedDict):
     code: Literal["wrong_type", "missing", "unknown_key", "unknown_value", "unknown_robot", "unknown_obstacle",
                   "duplicate", "out_of_range", "empty", "bad_map_row", "bad_image", "bad_movingai", "bad_polygon",
                   "wrong_size", "start_in_obstacle", "goal_in_obstacle", "starts_overlap", "goals_overlap",
-                  "discontinuity", "speed", "committed_collision", "committed_in_zone", "dependency", "invalid_plan"]
+                  "discontinuity", "speed", "profile", "committed_collision", "committed_in_zone", "dependency",
+                  "invalid_plan"]
     detail: str
 
 
@@ -434,8 +445,8 @@ Plans: TypeAlias = PlanAnswer | GivenPlans
 
 
 class Violation(TypedDict):
-    kind: Literal["robot_collision", "obstacle_collision", "discontinuity", "speed", "wrong_start", "wrong_goal",
-                  "wrong_visit", "committed_changed", "margin", "moving_obstacle", "zone"]
+    kind: Literal["robot_collision", "obstacle_collision", "discontinuity", "speed", "profile", "wrong_start",
+                  "wrong_goal", "wrong_visit", "committed_changed", "margin", "moving_obstacle", "zone"]
     robots: list[str]
     obstacle: NotRequired[str]
     zone: NotRequired[str]
@@ -673,6 +684,9 @@ class LoneRobot(TypedDict):
     radius: float
     linear_speed: float
     angular_speed: float
+    linear_acceleration: NotRequired[float]
+    linear_deceleration: NotRequired[float]
+    angular_acceleration: NotRequired[float]
     may_reverse: NotRequired[bool]
     vicinity: NotRequired[float]
     execution_margin: NotRequired[float]

@@ -26,7 +26,101 @@ double time_at(const RelativeMotion& motion, double fraction) {
 
 }  // namespace
 
+namespace {
+
+/// Fractions of a motion that differ by less are the same: rounding.
+constexpr double kLeastFraction = 1e-16;
+
+/// The squared distance of a parabola as a function of the fraction of the motion, 0 to 1.
+class Quartic {
+ public:
+  explicit Quartic(const RelativeMotion& motion)
+      : from_(motion.from), slope_(motion.to - motion.from - motion.bend), bend_(motion.bend) {
+    // Half the derivative: (from + slope f + bend f^2) . (slope + 2 bend f).
+    const double c[4] = {from_.dot(slope_), slope_.squaredNorm() + 2.0 * from_.dot(bend_),
+                         3.0 * slope_.dot(bend_), 2.0 * bend_.squaredNorm()};
+    const auto derivative = [&c](double f) { return c[0] + f * (c[1] + f * (c[2] + f * c[3])); };
+    std::vector<double> borders{0.0};
+    for (const double f : roots_of_quadratic(c[1], 2.0 * c[2], 3.0 * c[3])) borders.push_back(f);
+    borders.push_back(1.0);
+    for (std::size_t k = 0; k + 1 < borders.size(); ++k) {
+      const double first = derivative(borders[k]);
+      const double last = derivative(borders[k + 1]);
+      if ((first < 0.0) == (last < 0.0)) continue;
+      turns_.push_back(bisect(borders[k], borders[k + 1],
+                              [&](double f) { return (derivative(f) < 0.0) == (first < 0.0); }));
+    }
+  }
+
+  double at(double f) const { return (from_ + f * (slope_ + f * bend_)).squaredNorm(); }
+
+  /// Where it is least.
+  double argmin() const {
+    double best = at(1.0) < at(0.0) ? 1.0 : 0.0;
+    for (const double f : turns_) {
+      if (at(f) < at(best)) best = f;
+    }
+    return best;
+  }
+
+  /// The first and the last fraction at which it is at most so much, if there is one with less.
+  std::optional<TimeSpan> below(double squared) const {
+    std::vector<double> borders{0.0};
+    borders.insert(borders.end(), turns_.begin(), turns_.end());
+    borders.push_back(1.0);
+    std::optional<TimeSpan> found;
+    for (std::size_t k = 0; k + 1 < borders.size(); ++k) {
+      const bool begins = at(borders[k]) < squared;
+      const bool ends = at(borders[k + 1]) < squared;
+      if (!begins && !ends) continue;
+      double first = borders[k];
+      double last = borders[k + 1];
+      if (begins != ends) {
+        const double crossing = bisect(first, last, [&](double f) { return (at(f) < squared) == begins; });
+        (begins ? last : first) = crossing;
+      }
+      found = found ? TimeSpan{found->begin, last} : TimeSpan{first, last};
+    }
+    return found;
+  }
+
+ private:
+  /// The roots of a + b f + c f^2 in (0, 1), ascending.
+  static std::vector<double> roots_of_quadratic(double a, double b, double c) {
+    const double discriminant = b * b - 4.0 * a * c;
+    if (discriminant <= 0.0) return {};
+    const double q = -0.5 * (b + std::copysign(std::sqrt(discriminant), b));
+    std::vector<double> roots;
+    for (const double f : {q / c, a / q}) {
+      if (f > 0.0 && f < 1.0) roots.push_back(f);
+    }
+    std::sort(roots.begin(), roots.end());
+    return roots;
+  }
+
+  /// The border between where `holds` does, from `first` on, and where it does not, up to `last`.
+  template <typename Holds>
+  static double bisect(double first, double last, const Holds& holds) {
+    while (true) {
+      const double middle = 0.5 * (first + last);
+      if (middle <= first || middle >= last || last - first < kLeastFraction) return middle;
+      (holds(middle) ? first : last) = middle;
+    }
+  }
+
+  Position from_;
+  Position slope_;
+  Position bend_;
+  std::vector<double> turns_;  // where the derivative changes its sign, ascending
+};
+
+}  // namespace
+
 double least_squared_distance(const RelativeMotion& motion) {
+  if (motion.bends()) {
+    const Quartic distance(motion);
+    return distance.at(distance.argmin());
+  }
   const Position d = motion.to - motion.from;
   const double length_squared = d.squaredNorm();
   if (length_squared <= 0.0) return motion.from.squaredNorm();
@@ -41,12 +135,18 @@ double least_squared_distance(const RelativeMotion& motion) {
 ClosestMoment closest_moment(const RelativeMotion& motion) {
   const double distance = std::sqrt(least_squared_distance(motion));
   const bool from_the_beginning = motion.from.norm() <= distance + kSamePosition;
+  if (!from_the_beginning && motion.bends()) return {time_at(motion, Quartic(motion).argmin()), distance};
   return {from_the_beginning ? motion.t_begin : time_at(motion, closest_fraction(motion)), distance};
 }
 
 std::optional<TimeSpan> span_closer_than(const RelativeMotion& motion, double distance) {
   if (distance <= 0.0) return std::nullopt;
   const double squared = distance * distance;
+  if (motion.bends()) {
+    const auto near = Quartic(motion).below(squared);
+    if (!near) return std::nullopt;
+    return TimeSpan{time_at(motion, near->begin), time_at(motion, near->end)};
+  }
   const bool begins_inside = motion.from.squaredNorm() < squared;
   const bool ends_inside = motion.to.squaredNorm() < squared;
   // The distance is convex in time, so if both ends are inside, all of the motion is.
@@ -146,8 +246,19 @@ bool surrounds_origin(const std::vector<Corner>& polygon) {
 
 }  // namespace
 
-ShiftedMoment least_shifted_distance(const Leg& a, const TimeSpan& first, const Leg& b,
-                                     const TimeSpan& second, double margin) {
+namespace {
+
+/// The motion at constant speed between two positions of a leg.
+Leg chord_of(const Leg& leg, const TimeSpan& span) {
+  if (leg.bend == Position(0.0, 0.0)) return leg;
+  return {span.begin, span.end, position_at(leg, span.begin), position_at(leg, span.end)};
+}
+
+/// The least distance if the two legs go at constant speed during these spans.
+ShiftedMoment least_shifted_distance_of_chords(const Leg& first_leg, const TimeSpan& first,
+                                               const Leg& second_leg, const TimeSpan& second, double margin) {
+  const Leg a = chord_of(first_leg, first);
+  const Leg b = chord_of(second_leg, second);
   std::vector<Corner> polygon{{first.begin, second.begin},
                               {first.end, second.begin},
                               {first.end, second.end},
@@ -164,6 +275,44 @@ ShiftedMoment least_shifted_distance(const Leg& a, const TimeSpan& first, const 
     nearest = {closest.distance, from.s + closest.t * (to.s - from.s), from.t + closest.t * (to.t - from.t)};
   }
   if (surrounds_origin(polygon)) nearest.distance = 0.0;
+  return nearest;
+}
+
+/// How far a leg is at most, in metres, from where it would be at constant speed during this span.
+double sag(const Leg& leg, const TimeSpan& span) {
+  return 0.25 * bend_between(leg, span.begin, span.end).norm();
+}
+
+}  // namespace
+
+ShiftedMoment least_shifted_distance(const Leg& a, const TimeSpan& first, const Leg& b,
+                                     const TimeSpan& second, double margin) {
+  ShiftedMoment nearest = least_shifted_distance_of_chords(a, first, b, second, margin);
+  if (sag(a, first) + sag(b, second) <= 0.0) return nearest;
+  // Branch and bound: halves of the spans, until chords differ from the legs by no more than rounding.
+  struct Part {
+    TimeSpan first;
+    TimeSpan second;
+  };
+  nearest.distance = std::numeric_limits<double>::infinity();
+  std::vector<Part> open{{first, second}};
+  while (!open.empty()) {
+    const Part part = open.back();
+    open.pop_back();
+    ShiftedMoment chords = least_shifted_distance_of_chords(a, part.first, b, part.second, margin);
+    const double mine = sag(a, part.first);
+    const double its = sag(b, part.second);
+    if (chords.distance - mine - its >= nearest.distance - kSamePosition) continue;
+    if (mine + its <= kSamePosition) {
+      nearest = chords;
+      continue;
+    }
+    const TimeSpan& divided = mine >= its ? part.first : part.second;
+    const double middle = 0.5 * (divided.begin + divided.end);
+    for (const TimeSpan& half : {TimeSpan{divided.begin, middle}, TimeSpan{middle, divided.end}}) {
+      open.push_back(mine >= its ? Part{half, part.second} : Part{part.first, half});
+    }
+  }
   return nearest;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// The motion of a point relative to another one, both straight at constant speed; and two bodies leg by leg,
-// at equal and at slightly different times.
+// The motion of a point relative to another one, both straight at constant acceleration; and two bodies leg
+// by leg, at equal and at slightly different times.
 
 #include <algorithm>
 #include <optional>
@@ -13,13 +13,20 @@
 
 namespace fleetplan::core {
 
-/// The displacement from one point to another, linear in time. If neither moves, or both have the same
-/// velocity, from == to, and t_end may be infinite.
+/// The displacement from one point to another: linear in time, or a parabola if it bends (see Leg::bend). If
+/// neither moves, or both have the same velocity, from == to, and t_end may be infinite.
+///
+/// The squared distance of a parabola is of degree four in time. It is monotone between the roots of its
+/// derivative, a cubic, which is monotone between the roots of its own derivative; all roots are bracketed
+/// so.
 struct RelativeMotion {
   double t_begin = 0.0;
   double t_end = 0.0;
   Position from{0.0, 0.0};
   Position to{0.0, 0.0};
+  Position bend{0.0, 0.0};
+
+  bool bends() const { return bend != Position(0.0, 0.0); }
 };
 
 /// The time and distance of the closest approach; the first such time if there are several.
@@ -42,13 +49,21 @@ ClosestMoment closest_moment(const RelativeMotion& motion);
 
 /// Returns the open time span in which the distance is less than `distance`; none if it never is. If the span
 /// begins or ends inside the motion, its error is a few ulp of the coordinates divided by the speed, or the
-/// square root of that where the approach is tangential; at an end of the motion it is exact.
+/// square root of that where the approach is tangential; at an end of the motion it is exact. A parabola may
+/// be farther away in between.
 std::optional<TimeSpan> span_closer_than(const RelativeMotion& motion, double distance);
 
 /// Returns the first leg that does not end before `t`.
 inline std::vector<Leg>::const_iterator first_leg_until(const std::vector<Leg>& legs, double t) {
   return std::lower_bound(legs.begin(), legs.end(), t,
                           [](const Leg& leg, double time) { return leg.t_end < time; });
+}
+
+/// Returns the bend of the part of a leg between two times.
+inline Position bend_between(const Leg& leg, double begin, double end) {
+  if (leg.bend == Position(0.0, 0.0)) return leg.bend;
+  const double share = (end - begin) / (leg.t_end - leg.t_begin);
+  return share * share * leg.bend;
 }
 
 /// Calls `visit(const RelativeMotion&)` for each piece of time within the closed span in which both bodies
@@ -64,7 +79,8 @@ void visit_common_pieces(std::span<const Leg> a, std::span<const Leg> b, const T
     const bool instant = counts_instants && begin == end && j->t_begin == j->t_end;
     if (begin < end || instant) {
       const RelativeMotion motion{begin, end, position_at(*j, begin) - position_at(*i, begin),
-                                  position_at(*j, end) - position_at(*i, end)};
+                                  position_at(*j, end) - position_at(*i, end),
+                                  bend_between(*j, begin, end) - bend_between(*i, begin, end)};
       if (!visit(motion)) return;
     }
     if (i->t_end <= j->t_end) {
@@ -104,7 +120,7 @@ struct ShiftedMoment {
 
 /// Returns the least distance of a position of one leg at a time within `first`, and one of the other leg at
 /// a time within `second`, if these times differ by no more than `margin`. All times are finite. Exact up to
-/// rounding.
+/// rounding, and up to kSamePosition for legs that bend.
 ShiftedMoment least_shifted_distance(const Leg& a, const TimeSpan& first, const Leg& b,
                                      const TimeSpan& second, double margin);
 

@@ -30,7 +30,7 @@ std::vector<Leg> committed_legs(const std::vector<Leg>& legs, double until) {
   if (kept.back().t_end < until) return kept;  // the robot has another radius from then on
   Leg& last = kept.back();
   const Position end = position_at(last, until);
-  last = {last.t_begin, until, last.from, end};
+  last = part_of(last, last.t_begin, until);
   kept.push_back({until, std::numeric_limits<double>::infinity(), end, end});
   return kept;
 }

@@ -45,6 +45,15 @@ double distance_between(const Pose& a, const Pose& b) { return (b.position - a.p
 
 double turn_between(const Pose& a, const Pose& b) { return std::abs(rotation_between(a.theta, b.theta)); }
 
+bool goes_on_straight(const Action& before, const Action& action, const Tolerance& tolerance) {
+  if (before.type != Action::Type::translate) return false;
+  if (action.t_start - before.t_end > tolerance.seconds) return false;
+  if (std::abs(rotation_between(before.to.theta, action.from.theta)) > tolerance.radians) return false;
+  const Position earlier = before.to.position - before.from.position;
+  const Position later = action.to.position - action.from.position;
+  return earlier.dot(later) >= 0.0;  // they lead ahead, not back
+}
+
 /// Checks the actions of one plan in order.
 class MotionCheck {
  public:
@@ -58,6 +67,7 @@ class MotionCheck {
       if (k > 0) check_start_pose(k);
       check_type(k);
       check_speed(k);
+      check_profile(k, given);
     }
     check_cost();
     return std::move(violations_);
@@ -154,6 +164,86 @@ class MotionCheck {
     }
   }
 
+  /// Checks the profile of a translation or rotation, by the laws of constant acceleration.
+  void check_profile(std::size_t k, std::size_t given) {
+    const Action& action = plan_.actions[k];
+    if (action.type == Action::Type::wait) return;
+    const bool turns = action.type == Action::Type::rotate;
+    const double amount =
+        turns ? turn_between(action.from, action.to) : distance_between(action.from, action.to);
+    const double tolerance = turns ? tolerance_.radians : tolerance_.metres;
+    const double gain = turns ? robot_.angular_acceleration : robot_.linear_acceleration;
+    const double loss = turns ? robot_.angular_acceleration : robot_.linear_deceleration;
+    const bool is_limited = std::isfinite(gain) || std::isfinite(loss);
+    if (!action.profile) {
+      if (is_limited && amount > tolerance) {
+        report(Kind::profile, action.t_start, 0.0, 0.0,
+               action_name(k) + " has no profile, but the robot's acceleration is limited");
+      }
+      return;
+    }
+    const SpeedProfile& profile = *action.profile;
+    const double top_speed = turns ? robot_.angular_speed : robot_.linear_speed;
+    const auto fault = [&](double value, double required, const std::string& what) {
+      report(Kind::profile, action.t_start, value, required, action_name(k) + " has a profile " + what);
+    };
+    if (!usable(profile.start) || !usable(profile.cruise) || !usable(profile.end)) {
+      return fault(0.0, 0.0, "with a number that is not finite or larger than 1e30");
+    }
+    if (profile.cruise > top_speed + tolerance)
+      return fault(profile.cruise, top_speed, "faster than the robot");
+    const double least = std::min(profile.start, profile.end);
+    const double most = std::max(profile.start, profile.end);
+    if (least < -tolerance || most > profile.cruise + tolerance) {
+      return fault(least < -tolerance ? least : most, least < -tolerance ? 0.0 : profile.cruise,
+                   "whose speed at an end is negative or greater than in the middle");
+    }
+    check_covered(k, profile, {gain, loss}, amount, tolerance);
+    const bool goes_on = k > 0 && !turns && goes_on_straight(plan_.actions[k - 1], action, tolerance_);
+    const bool is_known = k > given || k == 0;  // committed motion may be measured, without profiles
+    const double before = goes_on ? end_speed(k - 1) : 0.0;
+    if (is_known && std::abs(profile.start - before) > tolerance) {
+      fault(profile.start, before, "that does not begin at the speed before");
+    }
+    const bool ends = k + 1 == plan_.actions.size() ||
+                      !goes_on_straight(action, plan_.actions[k + 1], tolerance_) ||
+                      plan_.actions[k + 1].type != Action::Type::translate;
+    if (ends && profile.end > tolerance) fault(profile.end, 0.0, "that does not end at rest");
+  }
+
+  double end_speed(std::size_t k) const {
+    const Action& action = plan_.actions[k];
+    return action.profile ? action.profile->end : 0.0;
+  }
+
+  /// The greatest changes of speed, metres (or radians) per second squared.
+  struct Limits {
+    double gain;
+    double loss;
+  };
+
+  /// Reports a profile that covers another length (or angle) than its action, or that takes more time.
+  void check_covered(std::size_t k, const SpeedProfile& profile, const Limits& limits, double amount,
+                     double tolerance) {
+    const Action& action = plan_.actions[k];
+    const double gaining = (profile.cruise - profile.start) / limits.gain;
+    const double losing = (profile.cruise - profile.end) / limits.loss;
+    const double duration = action.t_end - action.t_start;
+    if (duration < gaining + losing - tolerance_.seconds) {
+      report(Kind::profile, action.t_start, duration, gaining + losing,
+             action_name(k) + " takes " + seconds(duration) +
+                 ", but the changes of speed of its profile take " + seconds(gaining + losing));
+      return;
+    }
+    const double cruising = duration - gaining - losing;
+    const double covered = 0.5 * (profile.start + profile.cruise) * gaining + profile.cruise * cruising +
+                           0.5 * (profile.cruise + profile.end) * losing;
+    if (std::abs(covered - amount) <= tolerance + profile.cruise * tolerance_.seconds) return;
+    report(Kind::profile, action.t_start, covered, amount,
+           action_name(k) + " has a profile that covers " + std::to_string(covered) + ", but goes " +
+               std::to_string(amount));
+  }
+
   /// Measures how far a translation leads off the line of its heading, so that very short ones may be
   /// rounded.
   void check_direction(std::size_t k) {
@@ -233,15 +323,6 @@ ViolationList check_motion(const Robot& robot, const RobotPlan& plan, std::size_
 namespace {
 
 constexpr std::size_t kBetweenPolls = 64;
-
-bool goes_on_straight(const Action& before, const Action& action, const Tolerance& tolerance) {
-  if (before.type != Action::Type::translate) return false;
-  if (action.t_start - before.t_end > tolerance.seconds) return false;
-  if (std::abs(rotation_between(before.to.theta, action.from.theta)) > tolerance.radians) return false;
-  const Position earlier = before.to.position - before.from.position;
-  const Position later = action.to.position - action.from.position;
-  return earlier.dot(later) >= 0.0;  // they lead ahead, not back
-}
 
 }  // namespace
 

@@ -13,8 +13,17 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
+/// Returns when a leg has covered a fraction of its length.
 double time_at(const Leg& leg, double fraction) {
-  return fraction > 0.0 ? leg.t_begin + fraction * (leg.t_end - leg.t_begin) : leg.t_begin;
+  if (fraction <= 0.0) return leg.t_begin;
+  double elapsed = fraction;
+  if (leg.bend != Position(0.0, 0.0)) {
+    // fraction = elapsed - elapsed (1 - elapsed) ramp
+    const double ramp = leg.bend.dot(leg.to - leg.from) / (leg.to - leg.from).squaredNorm();
+    const double slope = 1.0 - ramp;
+    elapsed = 2.0 * fraction / (slope + std::sqrt(std::max(0.0, slope * slope + 4.0 * ramp * fraction)));
+  }
+  return leg.t_begin + elapsed * (leg.t_end - leg.t_begin);
 }
 
 Violation overlap_with(const NearestObstacle& obstacle, std::size_t robot, double radius, double t) {
@@ -131,12 +140,15 @@ std::string blocked_text(const Zone& zone, double distance, double radius, doubl
 
 }  // namespace
 
-ZonesOfRobot::ZonesOfRobot(const std::vector<Zone>* zones, std::size_t robot, double own_speed)
-    : robot_(robot), own_speed_(own_speed) {
+ZonesOfRobot::ZonesOfRobot(const std::vector<Zone>* zones, std::size_t index, const Robot& robot)
+    : robot_(index),
+      own_speed_(robot.linear_speed),
+      acceleration_(robot.linear_acceleration),
+      deceleration_(robot.linear_deceleration) {
   if (zones == nullptr) return;
   for (std::size_t k = 0; k < zones->size(); ++k) {
     const Zone& zone = (*zones)[k];
-    if (!zone.is_for(robot)) continue;
+    if (!zone.is_for(index)) continue;
     zones_.push_back({k, &zone, box_of(zone.polygon)});
     may_leave_any_ = may_leave_any_ || zone.may_leave;
   }
@@ -267,6 +279,21 @@ std::optional<Violation> ZonesOfRobot::check_translation(const ZoneBox& in, cons
     }
     const double share = stretch.last - stretch.first;
     const double limit = in.zone->linear_speed_for(own_speed_);
+    if (action.profile) {
+      // Where it is within the tolerance of the border, it need not be at the limit yet.
+      const SpeedProfile& profile = *action.profile;
+      const double gained =
+          profile.start * profile.start + 2.0 * acceleration_ * (stretch.last * length - tolerance.metres);
+      const double to_lose = profile.end * profile.end +
+                             2.0 * deceleration_ * ((1.0 - stretch.first) * length - tolerance.metres);
+      const double square = std::min({profile.cruise * profile.cruise, gained, to_lose});
+      const double speed = std::sqrt(std::max(0.0, square));
+      if (speed <= limit + tolerance.metres) continue;
+      return broken(in, t, std::min(speed, kFastest), limit,
+                    name + " goes at " + quantity_text(std::min(speed, kFastest), "m/s") +
+                        " through the zone \"" + in.zone->id + "\", which allows " +
+                        quantity_text(limit, "m/s"));
+    }
     const double taken = share * duration;
     const double least = share * length / limit;
     if (taken >= least - tolerance.seconds || taken * limit >= share * length - tolerance.metres) continue;
@@ -287,6 +314,11 @@ std::optional<Violation> ZonesOfRobot::check_rotation(const ZoneBox& in, const A
   const double turn = std::abs(rotation_between(action.from.theta, action.to.theta));
   const double duration = std::max(0.0, action.t_end - action.t_start);
   const double limit = in.zone->angular_speed;
+  if (action.profile && action.profile->cruise > limit + tolerance.radians) {
+    return broken(in, action.t_start, std::min(action.profile->cruise, kFastest), limit,
+                  "actions[" + std::to_string(number) + "] turns faster than the zone \"" + in.zone->id +
+                      "\" allows, which is " + quantity_text(limit, "rad/s"));
+  }
   if (duration >= turn / limit - tolerance.seconds || duration * limit >= turn - tolerance.radians) {
     return std::nullopt;
   }

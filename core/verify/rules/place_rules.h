@@ -40,9 +40,9 @@ ViolationList check_obstacles(const ObstacleField& field, std::size_t robot, con
 /// The zones of one robot.
 class ZonesOfRobot {
  public:
-  /// The zones of `robot`. `zones`: null if there are none; otherwise they outlive this object. `own_speed`:
-  /// the robot's linear speed, metres per second.
-  ZonesOfRobot(const std::vector<Zone>* zones, std::size_t robot, double own_speed);
+  /// The zones of the robot with this index. `zones`: null if there are none; otherwise they outlive this
+  /// object.
+  ZonesOfRobot(const std::vector<Zone>* zones, std::size_t index, const Robot& robot);
 
   bool empty() const { return zones_.empty(); }
   bool may_leave_any() const { return may_leave_any_; }
@@ -87,7 +87,9 @@ class ZonesOfRobot {
   Violation broken(const ZoneBox& in, double t, double measured, double required, std::string detail) const;
 
   std::size_t robot_;
-  double own_speed_;
+  double own_speed_;     // metres per second
+  double acceleration_;  // metres per second squared
+  double deceleration_;
   std::vector<ZoneBox> zones_;
   bool may_leave_any_ = false;  // of them
 };

@@ -94,13 +94,13 @@ TEST(Timeline, AnActionThatEndsAtTheMomentIsDone) {
 }
 
 TEST(Timeline, ActionsAreCutWhereTheyAreUnderWay) {
-  const auto cut = actions_until(corner(), 6.0);
+  const auto cut = stopped_by(corner(), 6.0);
   ASSERT_EQ(cut.size(), 3U);
   EXPECT_EQ(cut[2].t_end, 6.0);
-  const auto in_a_move = actions_until(corner(), 1.0);
+  const auto in_a_move = stopped_by(corner(), 1.0);
   ASSERT_EQ(in_a_move.size(), 1U);
   expect_pose(in_a_move[0].to, 2.0, 1.0, 0.0);
-  EXPECT_TRUE(actions_until(corner(), 0.0).empty());
+  EXPECT_TRUE(stopped_by(corner(), 0.0).empty());
 }
 
 TEST(Timeline, ActionsThatOverlapInTimeFollowEachOther) {

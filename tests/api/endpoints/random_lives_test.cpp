@@ -67,6 +67,18 @@ void add_stop_distances(Dice& dice, Json& json) {
   }
 }
 
+/// Robots that need time to start and to stop.
+void add_accelerations(Dice& dice, Json& json) {
+  for (Json& robot : json.at("robots")) {
+    const double speed = robot.at("linear_speed").get<double>();
+    if (dice.chance(0.7)) {
+      robot["linear_acceleration"] = speed * std::pow(10.0, dice.between(-1.0, 1.0));
+      if (dice.chance(0.5)) robot["linear_deceleration"] = speed * std::pow(10.0, dice.between(-1.0, 1.0));
+    }
+    if (dice.chance(0.5)) robot["angular_acceleration"] = std::pow(10.0, dice.between(-1.0, 2.0));
+  }
+}
+
 /// A valid request with all kinds of members.
 Json first_request(Dice& dice) {
   while (true) {
@@ -82,6 +94,7 @@ Json first_request(Dice& dice) {
     if (dice.chance(0.3)) json["options"]["invalid_robots"] = "report";
     if (dice.chance(0.2)) json["options"]["dependencies"] = true;
     if (dice.chance(0.3)) add_stop_distances(dice, json);
+    if (dice.chance(0.3)) add_accelerations(dice, json);
     return json;
   }
 }
@@ -139,7 +152,9 @@ void expect_that_the_overlapping_are_named(const Json& request, const core::Prob
   const auto needs_way = [&](std::size_t robot) {
     const Json* state = state_of(body, robots[robot].id);
     const bool stands = state != nullptr && state->value("speed", 1.0) == 0.0;
-    return !stands && request.at("robots").at(robot).value("stop_distance", 0.0) > 0.0;
+    const Json& one = request.at("robots").at(robot);
+    if (one.contains("linear_acceleration") || one.contains("angular_acceleration")) return true;
+    return !stands && one.value("stop_distance", 0.0) > 0.0;
   };
   for (std::size_t j = 0; j < robots.size(); ++j) {
     for (std::size_t i = 0; i < j; ++i) {
@@ -173,6 +188,7 @@ double driven(const Json& actions, std::size_t first) {
 void expect_that_it_can_stop(const Json& robot, const Json& actions, std::size_t action, double progress) {
   constexpr double kRounding = 1e-6;
   if (actions[action].at("type") != "translate" || progress == 1.0) return;
+  if (actions[action].contains("profile")) return;  // it brakes with its deceleration
   const double left = driven(actions, action) - progress * length(actions[action]);
   const double needs = std::min(robot.value("stop_distance", 0.0), left);
   EXPECT_GE(driven(robot.value("committed", Json::array()), 0), needs - kRounding) << robot;

@@ -1,0 +1,223 @@
+// Actions of robots that need time to start and to stop: their parts, where they stand when they brake, and
+// how they go on from there.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "api/advance/advance.h"
+#include "core/geometry/angle.h"
+
+namespace fleetplan::api {
+
+namespace {
+
+using core::Action;
+using Actions = std::vector<Action>;
+
+/// Times that differ by less are the same (seconds): far above rounding, far below what matters.
+constexpr double kRoundedTime = 1e-9;
+
+/// Metres of a translation, radians of a rotation.
+double amount(const Action& action) {
+  return action.type == Action::Type::rotate ? core::angle_between(action.from.theta, action.to.theta)
+                                             : (action.to.position - action.from.position).norm();
+}
+
+double speed_at(const Action& action, double t) {
+  return core::speed_after(*action.profile, action.t_end - action.t_start, t - action.t_start);
+}
+
+/// Brakes from the end of the last of the driven actions on, which is a part of the one with this index.
+void brake(Actions& driven, const Actions& actions, std::size_t index) {
+  for (;; ++index) {
+    const Action& planned = actions[index];
+    Action& last = driven.back();
+    const core::Inertia& inertia = last.profile->inertia;
+    const core::Position way = planned.to.position - planned.from.position;
+    const double whole = way.norm();
+    const double covered = (last.to.position - planned.from.position).norm();
+    const double speed = last.profile->end;
+    const double needed = 0.5 * speed * speed * inertia.fall;
+    if (covered + needed <= whole || end_of_chain(actions, index) == index + 1) {
+      const double share = covered + needed < whole ? (covered + needed) / whole : 1.0;
+      last.to.position =
+          share < 1.0 ? core::Position(planned.from.position + share * way) : planned.to.position;
+      last.t_end += speed * inertia.fall;
+      last.profile->end = 0.0;
+      return;
+    }
+    const double slower = std::sqrt(std::max(0.0, speed * speed - 2.0 * (whole - covered) / inertia.fall));
+    last.to.position = planned.to.position;
+    last.t_end += (speed - slower) * inertia.fall;
+    last.profile->end = slower;
+    Action following = actions[index + 1];
+    following.t_start = following.t_end = last.t_end;
+    following.to = following.from;
+    following.profile->start = following.profile->cruise = following.profile->end = slower;
+    driven.push_back(following);
+  }
+}
+
+}  // namespace
+
+double share_at(const Action& action, double t) {
+  const double duration = action.t_end - action.t_start;
+  if (duration <= 0.0) return 1.0;
+  const double elapsed = std::clamp((t - action.t_start) / duration, 0.0, 1.0);
+  const double whole = action.profile ? amount(action) : 0.0;
+  if (whole <= 0.0) return elapsed;
+  return std::clamp(core::covered_after(*action.profile, duration, elapsed * duration) / whole, 0.0, 1.0);
+}
+
+double time_at_share(const Action& action, double share) {
+  const double duration = action.t_end - action.t_start;
+  if (!action.profile) return action.t_start + share * duration;
+  return action.t_start + core::elapsed_at(*action.profile, duration, share * amount(action));
+}
+
+Action part_until(Action action, double t) {
+  const core::Pose to = pose_at(action, t);
+  if (action.profile) {
+    const double speed = speed_at(action, t);
+    if (t - action.t_start < action.profile->rise_time()) action.profile->cruise = speed;
+    action.profile->end = speed;
+  }
+  action.to = to;
+  action.t_end = t;
+  return action;
+}
+
+Action part_from(Action action, double t) {
+  const core::Pose from = pose_at(action, t);
+  if (action.profile) {
+    const double speed = speed_at(action, t);
+    if (t > action.t_end - action.profile->fall_time()) action.profile->cruise = speed;
+    action.profile->start = speed;
+  }
+  action.from = from;
+  action.t_start = t;
+  return action;
+}
+
+std::size_t end_of_chain(const Actions& actions, std::size_t first) {
+  std::size_t last = first;
+  while (last + 1 < actions.size() && actions[last].profile && actions[last].profile->end > 0.0 &&
+         actions[last + 1].profile) {
+    ++last;
+  }
+  return last + 1;
+}
+
+Actions driven_from(Actions chain, double t, double speed) {
+  std::vector<core::LimitedPart> parts;
+  for (const Action& action : chain) parts.push_back({amount(action), action.profile->cruise});
+  const auto profiles = core::fastest_profiles(parts, chain.front().profile->inertia, speed);
+  for (std::size_t k = 0; k < chain.size(); ++k) {
+    chain[k].profile = profiles[k];
+    chain[k].t_start = t;
+    t += core::duration(profiles[k], parts[k].length);
+    chain[k].t_end = t;
+  }
+  return chain;
+}
+
+Actions executed_until(const Actions& actions, double t) {
+  Actions done;
+  for (const Action& action : actions) {
+    if (action.t_start >= t - kRoundedTime) break;
+    done.push_back(action.t_end <= t + kRoundedTime ? action : part_until(action, t));
+  }
+  return done;
+}
+
+Actions braked(const Actions& actions, double t) {
+  std::size_t index = 0;
+  while (index < actions.size() && actions[index].t_end <= t + kRoundedTime) ++index;
+  Actions driven(actions.begin(), actions.begin() + static_cast<std::ptrdiff_t>(index));
+  if (index == actions.size() || !actions[index].profile) return driven;
+  const Action& under_way = actions[index];
+  const bool has_begun = t > under_way.t_start + kRoundedTime;
+  if (!has_begun && under_way.profile->start <= 0.0) return driven;
+  if (under_way.type == Action::Type::rotate) {  // it takes little time
+    driven.push_back(under_way);
+    return driven;
+  }
+  driven.push_back(part_until(under_way, std::max(t, under_way.t_start)));
+  brake(driven, actions, index);
+  return driven;
+}
+
+Actions stopped_by(const Actions& actions, double t) {
+  std::size_t index = 0;
+  while (index < actions.size() && actions[index].t_end <= t + kRoundedTime) ++index;
+  const bool is_cut = index < actions.size() && actions[index].t_start < t - kRoundedTime;
+  const bool ends_at_speed = index > 0 && actions[index - 1].profile && actions[index - 1].profile->end > 0.0;
+  if (!ends_at_speed && !(is_cut && actions[index].profile)) return executed_until(actions, t);
+  // The translations that follow each other at speed, from rest or from the begin of the actions.
+  std::size_t first = ends_at_speed && !is_cut ? index - 1 : index;
+  while (first > 0 && actions[first - 1].profile && actions[first - 1].profile->end > 0.0) --first;
+  const auto begin = actions.begin() + static_cast<std::ptrdiff_t>(first);
+  Actions stopped(actions.begin(), begin);
+  const Actions chain(begin, actions.begin() + static_cast<std::ptrdiff_t>(end_of_chain(actions, first)));
+  const bool stands = chain.front().profile->start <= 0.0;
+  double early = chain.front().t_start;
+  double late = t;
+  Actions best = braked(chain, early);
+  if (chain.front().type == Action::Type::rotate) best = stands ? Actions() : chain;
+  const double end = best.empty() ? early : best.back().t_end;
+  if (end < t && chain.front().type == Action::Type::translate) {
+    constexpr int kHalvings = 50;
+    for (int k = 0; k < kHalvings; ++k) {
+      const double middle = 0.5 * (early + late);
+      Actions tried = braked(chain, middle);
+      if (!tried.empty() && tried.back().t_end <= t) {
+        early = middle;
+        best = std::move(tried);
+      } else {
+        late = middle;
+      }
+    }
+  }
+  stopped.insert(stopped.end(), best.begin(), best.end());
+  return stopped;
+}
+
+Actions resumed_after(const Actions& stopped, const Actions& actions) {
+  Actions all = stopped;
+  if (stopped.empty()) return actions;
+  const std::size_t index = stopped.size() - 1;
+  const Action& last = stopped.back();
+  const Action& planned = actions[index];
+  const double left = (planned.to.position - last.to.position).norm();
+  std::size_t next = index + 1;
+  double late = 0.0;
+  if (last.profile && last.type == Action::Type::translate &&
+      (left > 1e-9 || (planned.profile && planned.profile->end > 0.0))) {
+    const std::size_t end = end_of_chain(actions, index);
+    Actions chain(actions.begin() + static_cast<std::ptrdiff_t>(index),
+                  actions.begin() + static_cast<std::ptrdiff_t>(end));
+    chain.front().from = last.to;
+    if (left <= 1e-9) chain.erase(chain.begin());
+    if (!chain.empty()) {
+      chain = driven_from(std::move(chain), last.t_end, 0.0);
+      late = chain.back().t_end - actions[end - 1].t_end;
+      all.insert(all.end(), chain.begin(), chain.end());
+    }
+    next = end;
+  } else if (last.t_end < planned.t_end) {
+    Action later = planned;
+    later.t_start = last.t_end;
+    later.from = last.to;
+    all.push_back(later);
+  }
+  for (std::size_t k = next; k < actions.size(); ++k) {
+    all.push_back(actions[k]);
+    all.back().t_start += late;
+    all.back().t_end += late;
+  }
+  return all;
+}
+
+}  // namespace fleetplan::api

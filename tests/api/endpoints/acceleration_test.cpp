@@ -1,0 +1,222 @@
+// Robots whose acceleration is limited, at the endpoints: their plans have profiles, which are checked,
+// accepted as commitments, and end at rest where /v1/advance cuts them.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "api/endpoints/endpoints.h"
+#include "tests/api/support/requests.h"
+
+namespace fleetplan::api {
+namespace TEST_FILE {
+
+/// Two robots swap the ends of a hall; they reach 1 m/s after half a metre.
+Json request_with_inertia() {
+  Json request = swap_request();
+  request["robot_defaults"]["linear_acceleration"] = 1.0;
+  request["robot_defaults"]["angular_acceleration"] = 4.0;
+  return request;
+}
+
+Json plan_of(const Json& request) {
+  const Reply reply = plan_endpoint(request.dump(), {});
+  EXPECT_EQ(reply.status, 200) << reply.body;
+  return json_of(reply);
+}
+
+Json verdict_on(Json request, const Json& plans) {
+  request["plans"] = plans;
+  const Reply reply = validate_endpoint(request.dump(), {});
+  EXPECT_EQ(reply.status, 200) << reply.body;
+  return json_of(reply);
+}
+
+/// A corridor, 20 m long, with one robot that drives along it: 2 m/s after 2 m, and 4 m to stop.
+Json corridor() {
+  return Json::parse(R"({
+    "map": {"rows": ["....................", "...................."]},
+    "robots": [{"id": "a", "radius": 0.4, "linear_speed": 2.0, "angular_speed": 2.0, "linear_acceleration": 1.0,
+                "linear_deceleration": 0.5, "start": {"x": 0.5, "y": 0.5}, "goal": {"x": 18.5, "y": 0.5}}]})");
+}
+
+Json advanced(const Json& request, const Json& answer, double at, const Json& more = Json::object()) {
+  Json body{{"request", request}, {"plans", answer["plans"]}, {"at", at}};
+  body.update(more);
+  const Reply reply = advance_endpoint(body.dump(), {});
+  EXPECT_EQ(reply.status, 200) << reply.body;
+  return json_of(reply);
+}
+
+TEST(Accelerations, MakeProfilesOfEveryMove) {
+  const Json answer = plan_of(corridor());
+  const Json& actions = answer["plans"][0]["actions"];
+  ASSERT_EQ(actions.size(), 1U);
+  EXPECT_EQ(actions[0]["profile"], Json({{"start", 0.0}, {"cruise", 2.0}, {"end", 0.0}}));
+  // 18 m at 2 m/s, and half of the 2 s and 4 s in which it starts and stops.
+  EXPECT_NEAR(actions[0]["t_end"], 9.0 + 1.0 + 2.0, 1e-12);
+  EXPECT_EQ(answer["lower_bound"]["flowtime"], answer["flowtime"]);
+}
+
+TEST(Accelerations, OfDefaultsAreThoseOfRobots) {
+  const Json answer = plan_of(request_with_inertia());
+  EXPECT_EQ(answer["status"], "solved");
+  EXPECT_EQ(answer["verified"], true);
+  for (const Json& plan : answer["plans"]) {
+    for (const Json& action : plan["actions"])
+      EXPECT_EQ(action.contains("profile"), action["type"] != "wait");
+  }
+}
+
+TEST(Accelerations, MakeNoDifferenceWhenTheyAreMissing) {
+  const Json without = plan_of(swap_request());
+  for (const Json& plan : without["plans"]) {
+    for (const Json& action : plan["actions"]) EXPECT_FALSE(action.contains("profile"));
+  }
+}
+
+TEST(Accelerations, AreFaultsOutsideOfTheirRanges) {
+  Json request = swap_request();
+  request["robot_defaults"]["linear_acceleration"] = 0.0;
+  request["robots"][0]["linear_deceleration"] = -1.0;
+  request["robots"][1]["angular_acceleration"] = 1e7;
+  EXPECT_EQ(brief_faults_of(request), (Faults{{"/robot_defaults/linear_acceleration", "out_of_range"},
+                                              {"/robots/0/linear_deceleration", "out_of_range"},
+                                              {"/robots/1/angular_acceleration", "out_of_range"}}));
+}
+
+TEST(Profiles, ThatDoNotFitAreViolations) {
+  const Json request = request_with_inertia();
+  const Json answer = plan_of(request);
+  ASSERT_EQ(verdict_on(request, answer["plans"])["valid"], true);
+  const auto kinds_with = [&](const auto& change) {
+    Json plans = answer["plans"];
+    for (Json& action : plans[0]["actions"]) {
+      if (action["type"] != "translate") continue;
+      change(action);
+      break;
+    }
+    std::vector<std::string> kinds;
+    const Json verdict = verdict_on(request, plans);
+    for (const Json& violation : verdict["violations"]) kinds.push_back(violation["kind"]);
+    return kinds;
+  };
+  using testing::Contains;
+  EXPECT_THAT(kinds_with([](Json& action) { action.erase("profile"); }), Contains("profile"));
+  EXPECT_THAT(kinds_with([](Json& action) {
+                action["profile"]["cruise"] = 0.9 * action["profile"]["cruise"].template get<double>();
+              }),
+              Contains("profile"))
+      << "covers less";
+  EXPECT_THAT(kinds_with([](Json& action) { action["profile"]["cruise"] = 3.0; }), Contains("profile"))
+      << "faster than the robot";
+  EXPECT_THAT(kinds_with([](Json& action) { action["profile"]["start"] = 0.1; }), Contains("profile"))
+      << "does not begin at rest";
+  EXPECT_THAT(kinds_with([](Json& action) { action["profile"]["end"] = 0.1; }), Contains("profile"))
+      << "does not end at rest";
+}
+
+TEST(Profiles, OfCommitmentsAreKept) {
+  Json request = request_with_inertia();
+  const Json answer = plan_of(request);
+  for (std::size_t k = 0; k < 2; ++k) request["robots"][k]["committed"] = answer["plans"][k]["actions"];
+  const Json again = plan_of(request);
+  EXPECT_EQ(again["status"], "solved");
+  for (std::size_t k = 0; k < 2; ++k) EXPECT_EQ(again["plans"][k]["actions"], answer["plans"][k]["actions"]);
+}
+
+TEST(Profiles, OfCommitmentsThatDoNotFitAreFaults) {
+  Json request = corridor();
+  request["robots"][0]["committed"] = plan_of(request)["plans"][0]["actions"];
+  Json& action = request["robots"][0]["committed"][0];
+  const Json profile = action["profile"];
+  const std::string place = "/robots/0/committed/0/profile";
+  action["profile"]["cruise"] = 1.5;
+  EXPECT_EQ(brief_faults_of(request), (Faults{{place, "profile"}})) << "covers less";
+  action["profile"]["cruise"] = 2.5;
+  EXPECT_EQ(brief_faults_of(request), (Faults{{place, "profile"}})) << "faster than the robot";
+  action["profile"] = {{"start", 0.0}, {"cruise", 0.0}, {"end", 0.0}};
+  EXPECT_EQ(brief_faults_of(request), (Faults{{place, "profile"}})) << "stands";
+  action["profile"] = {{"start", 0.0}, {"cruise", 2.0}};
+  EXPECT_EQ(brief_faults_of(request), (Faults{{place + "/end", "missing"}}));
+  action["profile"] = profile;
+  action["t_end"] = action["t_end"].get<double>() - 2.0;
+  action["profile"]["end"] = 1.0;
+  action["to"]["x"] = action["to"]["x"].get<double>() - 1.0;
+  EXPECT_EQ(brief_faults_of(request), (Faults{{"/robots/0/committed", "profile"}})) << "ends at a speed";
+  action.erase("profile");
+  EXPECT_EQ(brief_faults_of(request), Faults{}) << "measured";
+}
+
+TEST(Profiles, OfWaitsAreFaults) {
+  Json request = corridor();
+  request["robots"][0]["committed"] = Json::array({{{"type", "wait"},
+                                                    {"t_start", 0},
+                                                    {"t_end", 1},
+                                                    {"from", {{"x", 0.5}, {"y", 0.5}, {"theta", 0}}},
+                                                    {"to", {{"x", 0.5}, {"y", 0.5}, {"theta", 0}}},
+                                                    {"profile", {{"start", 0}, {"cruise", 1}, {"end", 0}}}}});
+  EXPECT_EQ(brief_faults_of(request), (Faults{{"/robots/0/committed/0/profile", "unknown_key"}}));
+}
+
+TEST(Advance, CommitsARobotUntilItCanStand) {
+  const Json request = corridor();
+  const Json answer = plan_of(request);
+  // At 5 s it is at 8.5 m and drives at 2 m/s. It begins to brake 1 s later, for 4 s.
+  const Json next = advanced(request, answer, 5.0, {{"commit", 1.0}});
+  const Json& robot = next["robots"][0];
+  EXPECT_NEAR(robot["start"]["x"], 0.5 + 8.0, 1e-9);
+  ASSERT_EQ(robot["committed"].size(), 1U);
+  const Json& action = robot["committed"][0];
+  EXPECT_NEAR(action["t_end"], 1.0 + 4.0, 1e-9);
+  EXPECT_NEAR(action["to"]["x"], 8.5 + 2.0 + 4.0, 1e-9);
+  EXPECT_EQ(action["profile"], Json({{"start", 2.0}, {"cruise", 2.0}, {"end", 0.0}}));
+  const Json again = plan_of(next);
+  EXPECT_EQ(again["status"], "solved");
+  EXPECT_EQ(again["verified"], true);
+}
+
+TEST(Advance, WithoutACommitmentBrakesFromNowOn) {
+  const Json request = corridor();
+  const Json next = advanced(request, plan_of(request), 1.0, {{"commit", 0.0}});
+  // It drives at 1 m/s after half a metre, and needs 1 m to stop.
+  const Json& action = next["robots"][0]["committed"][0];
+  EXPECT_NEAR(next["robots"][0]["start"]["x"], 1.0, 1e-9);
+  EXPECT_NEAR(action["to"]["x"], 2.0, 1e-9);
+  EXPECT_NEAR(action["t_end"], 2.0, 1e-9);
+}
+
+TEST(Advance, DoesNotBrakeBeyondThePlannedEnd) {
+  const Json request = corridor();
+  const Json answer = plan_of(request);
+  const Json next = advanced(request, answer, 9.0, {{"commit", 1.0}});
+  const Json& action = next["robots"][0]["committed"][0];
+  EXPECT_NEAR(action["to"]["x"], 18.5, 1e-9);
+  EXPECT_NEAR(action["t_end"], 3.0, 1e-9);
+}
+
+TEST(Advance, HoldsARobotWhenItHasStopped) {
+  const Json request = corridor();
+  const Json held{{"holds", {{{"robot", "a"}, {"until", 7.0}}}}};
+  const Json next = advanced(request, plan_of(request), 5.0, held);
+  const Json& committed = next["robots"][0]["committed"];
+  ASSERT_EQ(committed.size(), 2U);
+  EXPECT_NEAR(committed[0]["t_end"], 4.0, 1e-6);
+  EXPECT_NEAR(committed[0]["to"]["x"], 8.5 + 4.0, 1e-6);
+  EXPECT_EQ(committed[1]["type"], "wait");
+  EXPECT_NEAR(committed[1]["t_end"], 7.0, 1e-9);
+  EXPECT_EQ(plan_of(next)["status"], "solved");
+}
+
+TEST(Advance, GoesOnFromTheReportedSpeed) {
+  const Json request = corridor();
+  const Json state{{"robot", "a"}, {"action", 0}, {"progress", 0.5}, {"speed", 0.0}};
+  const Json next = advanced(request, plan_of(request), 5.0, {{"states", {state}}, {"commit", 0.0}});
+  EXPECT_NEAR(next["robots"][0]["start"]["x"], 9.5, 1e-9);
+  EXPECT_TRUE(next["robots"][0].value("committed", Json::array()).empty()) << "it stands";
+}
+
+}  // namespace TEST_FILE
+}  // namespace fleetplan::api

@@ -1,0 +1,80 @@
+// Playback of robots that need time to start and to stop.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { motionOf } from "../../../web/model/motion.js";
+import { inertiaOf, shareAt, speedAt, timeAtShare, withChanges } from "../../../web/model/profile.js";
+import { poseAt } from "../../../web/model/timeline.js";
+
+const ROBOT = { linear_acceleration: 1, linear_deceleration: 0.5, angular_acceleration: 2 };
+const at = (x, theta = 0) => ({ x, y: 0, theta });
+// 18 m at 2 m/s: 2 m in 2 s, 12 m in 6 s, 4 m in 4 s.
+const DRIVE = {
+  type: "translate",
+  t_start: 1,
+  t_end: 13,
+  from: at(0),
+  to: at(18),
+  profile: { start: 0, cruise: 2, end: 0 },
+};
+const [ACTION] = withChanges([DRIVE], inertiaOf(ROBOT, {}));
+
+test("the speed rises, stays and falls", () => {
+  assert.deepEqual(ACTION.changes, { rise: 2, fall: 4 });
+  for (const [t, speed] of [
+    [1, 0],
+    [2, 1],
+    [3, 2],
+    [6, 2],
+    [11, 1],
+    [13, 0],
+  ]) {
+    assert.ok(Math.abs(speedAt(ACTION, t, 18) - speed) < 1e-12, `${t} s`);
+  }
+});
+
+test("the robot is where this speed has brought it", () => {
+  for (const [t, x] of [
+    [0, 0],
+    [2, 0.5],
+    [3, 2],
+    [9, 14],
+    [11, 17],
+    [13, 18],
+    [20, 18],
+  ]) {
+    assert.ok(Math.abs(poseAt([ACTION], at(0), t).x - x) < 1e-9, `${t} s`);
+  }
+});
+
+test("the time of a share is the inverse of the share at a time", () => {
+  for (const t of [1.5, 2.5, 7, 10, 12.9])
+    assert.ok(Math.abs(timeAtShare(ACTION, shareAt(ACTION, t)) - t) < 1e-9);
+});
+
+test("without accelerations of the robot, and without a profile, actions are as ever", () => {
+  const plain = { ...DRIVE, profile: undefined };
+  assert.equal(withChanges([plain], inertiaOf(ROBOT, {}))[0], plain);
+  assert.ok(Math.abs(poseAt([plain], at(0), 7).x - 9) < 1e-12);
+  assert.deepEqual(inertiaOf({}, { linear_acceleration: 4 }), { rise: 0.25, fall: 0.25, turn: 0 });
+});
+
+test("a rotation turns as its angular acceleration allows", () => {
+  const profile = { start: 0, cruise: 1, end: 0 };
+  const [turn] = withChanges(
+    [{ type: "rotate", t_start: 0, t_end: 2, from: at(0, 0), to: at(0, 1.5), profile }],
+    inertiaOf(ROBOT, {}),
+  );
+  assert.ok(Math.abs(poseAt([turn], at(0), 0.5).theta - 0.25) < 1e-9);
+  assert.ok(Math.abs(poseAt([turn], at(0), 1).theta - 0.75) < 1e-9);
+});
+
+test("gaps are measured along the way that it drives", () => {
+  const { knots } = motionOf({ start: at(0), radius: 0.4 }, [ACTION]);
+  const positions = [];
+  for (let k = 0; k < knots.length; k += 3) positions.push([knots[k], knots[k + 1]]);
+  assert.ok(positions.some(([t, x]) => t === 3 && Math.abs(x - 2) < 1e-9));
+  assert.ok(positions.every(([t, x]) => Math.abs(poseAt([ACTION], at(0), t).x - x) < 1e-9));
+  assert.deepEqual(positions.at(-1), [13, 18]);
+});
