@@ -205,6 +205,16 @@ bool needs_time_to_stop(const core::Robot& robot) {
   return robot.linear_inertia().any() || robot.angular_inertia().any();
 }
 
+/// Whether the actions from an index on have the profiles that those of a plan for the robot have.
+bool have_profiles(const Actions& actions, std::size_t first, const core::Robot& robot) {
+  const auto has_its_own = [&](const Action& action) {
+    if (action.type == Action::Type::wait || action.profile) return true;
+    return !(action.type == Action::Type::rotate ? robot.angular_inertia() : robot.linear_inertia()).any();
+  };
+  const auto begin = actions.begin() + static_cast<std::ptrdiff_t>(std::min(first, actions.size()));
+  return std::all_of(begin, actions.end(), has_its_own);
+}
+
 /// What it cannot leave out of this remainder.
 Actions braking_in(const Remainder& rest, const core::Robot& robot, const Execution& execution,
                    const Located& located) {
@@ -311,7 +321,10 @@ core::Robot advanced(const core::Robot& robot, const Execution& execution, const
   next.goal_age = counts_age && !core::has_arrived(next) ? left.age : 0.0;
   next.previous.reset();
   const bool goes_on = execution.planned && !located.is_elsewhere && !execution.goals;
-  if (goes_on) next.previous = split_at(rest.actions, course.committed_until);
+  if (goes_on) {
+    Actions previous = split_at(rest.actions, course.committed_until);
+    if (have_profiles(previous, next.committed.size(), robot)) next.previous = std::move(previous);
+  }
   return next;
 }
 

@@ -195,6 +195,9 @@ double time_at_share(const core::Action& action, double share);
 core::Action part_until(core::Action action, double t);
 core::Action part_from(core::Action action, double t);
 
+/// The same actions, the last of which come to rest: as fast as they can, if they end at a speed.
+std::vector<core::Action> at_rest_in_the_end(std::vector<core::Action> actions);
+
 /// One past the last of the actions from an index on that follow each other at speed.
 std::size_t end_of_chain(const std::vector<core::Action>& actions, std::size_t first);
 

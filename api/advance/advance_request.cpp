@@ -16,8 +16,8 @@
 #include "api/request/fleet/parse_robots.h"
 #include "api/request/parse_body.h"
 #include "api/request/parse_request.h"
-#include "api/response/write_response.h"
 #include "api/request/ranges.h"
+#include "api/response/write_response.h"
 #include "core/geometry/angle.h"
 #include "core/model/drive_zones.h"
 

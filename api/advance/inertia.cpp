@@ -19,6 +19,9 @@ using Actions = std::vector<Action>;
 /// Times that differ by less are the same (seconds): far above rounding, far below what matters.
 constexpr double kRoundedTime = 1e-9;
 
+/// An action that has less left is done (metres or radians).
+constexpr double kLeft = 1e-9;
+
 /// Metres of a translation, radians of a rotation.
 double amount(const Action& action) {
   return action.type == Action::Type::rotate ? core::angle_between(action.from.theta, action.to.theta)
@@ -123,6 +126,16 @@ Actions driven_from(Actions chain, double t, double speed) {
   return chain;
 }
 
+Actions at_rest_in_the_end(Actions actions) {
+  if (actions.empty() || !actions.back().profile || actions.back().profile->end <= 0.0) return actions;
+  std::size_t first = actions.size() - 1;
+  while (first > 0 && actions[first - 1].profile && actions[first - 1].profile->end > 0.0) --first;
+  const auto begin = actions.begin() + static_cast<std::ptrdiff_t>(first);
+  const Actions chain = driven_from(Actions(begin, actions.end()), begin->t_start, begin->profile->start);
+  std::copy(chain.begin(), chain.end(), begin);
+  return actions;
+}
+
 Actions executed_until(const Actions& actions, double t) {
   Actions done;
   for (const Action& action : actions) {
@@ -190,16 +203,15 @@ Actions resumed_after(const Actions& stopped, const Actions& actions) {
   const std::size_t index = stopped.size() - 1;
   const Action& last = stopped.back();
   const Action& planned = actions[index];
-  const double left = (planned.to.position - last.to.position).norm();
+  const double left = amount(planned) - amount(last);
   std::size_t next = index + 1;
   double late = 0.0;
-  if (last.profile && last.type == Action::Type::translate &&
-      (left > 1e-9 || (planned.profile && planned.profile->end > 0.0))) {
+  if (last.profile && (left > kLeft || (planned.profile && planned.profile->end > 0.0))) {
     const std::size_t end = end_of_chain(actions, index);
     Actions chain(actions.begin() + static_cast<std::ptrdiff_t>(index),
                   actions.begin() + static_cast<std::ptrdiff_t>(end));
     chain.front().from = last.to;
-    if (left <= 1e-9) chain.erase(chain.begin());
+    if (left <= kLeft) chain.erase(chain.begin());
     if (!chain.empty()) {
       chain = driven_from(std::move(chain), last.t_end, 0.0);
       late = chain.back().t_end - actions[end - 1].t_end;

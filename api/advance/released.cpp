@@ -13,10 +13,6 @@ namespace {
 using core::Action;
 using Actions = std::vector<Action>;
 
-double time_of(const Action& action, double fraction) {
-  return action.t_start + fraction * (action.t_end - action.t_start);
-}
-
 /// The place, at an end of its action if that is nearer than rounding (seconds).
 Place at_end(const Actions& actions, Place place) {
   constexpr double kRounding = 1e-9;
@@ -29,31 +25,22 @@ Place at_end(const Actions& actions, Place place) {
   return place;
 }
 
-/// The actions before a place, of which the one under way there is cut.
+/// The actions before a place, of which the one under way there is cut. The robot stands there.
 Actions before_place(const Actions& actions, const Place& place) {
   const auto index = static_cast<std::ptrdiff_t>(place.action);
   Actions before(actions.begin(), actions.begin() + index);
   if (place.fraction > 0.0) {
-    Action part = actions[place.action];
-    const double t = time_of(part, place.fraction);
-    part.to = pose_at(part, t);
-    part.t_end = t;
-    before.push_back(part);
+    const Action& part = actions[place.action];
+    before.push_back(part_until(part, time_at_share(part, place.fraction)));
   }
-  return before;
+  return at_rest_in_the_end(std::move(before));
 }
 
 /// The actions after a place, as many seconds earlier.
 Actions after_place(const Actions& actions, const Place& place, double earlier) {
-  Actions after(actions.begin() + static_cast<std::ptrdiff_t>(place.action), actions.end());
-  if (place.fraction >= 1.0) {
-    after.erase(after.begin());
-  } else if (place.fraction > 0.0) {
-    Action& part = after.front();
-    const double t = time_of(part, place.fraction);
-    part.from = pose_at(part, t);
-    part.t_start = t;
-  }
+  const Actions before = before_place(actions, place);
+  Actions after = resumed_after(before, actions);
+  after.erase(after.begin(), after.begin() + static_cast<std::ptrdiff_t>(before.size()));
   for (Action& action : after) {
     action.t_start -= earlier;
     action.t_end -= earlier;

@@ -180,6 +180,10 @@ void add_members(Json& request, Choices& choices) {
     robots[k].erase("goal");
     robots[k]["goals"] = std::move(list);
   }
+  if (choices.yes()) {
+    request["robot_defaults"]["linear_acceleration"] = choices.one_of(std::array{1e-3, 0.5, 1e6});
+    request["robot_defaults"]["angular_acceleration"] = choices.one_of(std::array{1e-3, 2.0, 1e6});
+  }
 }
 
 /// Robots that go to and fro in rows of their own, or in one row.

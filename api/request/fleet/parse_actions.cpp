@@ -71,6 +71,7 @@ ActionChain::ActionChain(const ActionsOwner& owner)
       may_reverse_(owner.may_reverse),
       linear_inertia_(owner.linear_inertia),
       angular_inertia_(owner.angular_inertia),
+      measured_(owner.measured),
       pose_(owner.start) {}
 
 std::string ActionChain::name() const { return "Action " + std::to_string(count_) + " (from 0)"; }
@@ -88,6 +89,7 @@ core::Action ActionChain::append(core::Action action, const JsonReader& item) {
       action.profile->inertia = turns ? angular_inertia_ : linear_inertia_;
       check_profile(action, item);
     }
+    check_has_profile(action, item);
     check_speeds_meet(action, item);
     if (action.reverse) check_reverse(action, item);
   }
@@ -197,6 +199,17 @@ void ActionChain::check_profile(const core::Action& action, const JsonReader& it
            (duration < changes - kTolerance ? "changing speed alone takes " + seconds(changes)
                                             : "it would be " + number_text(covered_by_profile(action))) +
            "; give the speeds that belong to it, or leave the profile out for measured motion.";
+  });
+}
+
+/// Only what is committed may be measured.
+void ActionChain::check_has_profile(const core::Action& action, const JsonReader& item) const {
+  if (action.profile || count_ < measured_ || action.type == core::Action::Type::wait) return;
+  const bool turns = action.type == core::Action::Type::rotate;
+  if (!(turns ? angular_inertia_ : linear_inertia_).any() || amount_of(action) <= kTolerance) return;
+  item.fault(fault::kProfile, [&] {
+    return name() +
+           " has no profile, but the robot's acceleration is limited; give the action as it was planned.";
   });
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,6 +40,8 @@ struct ActionsOwner {
   std::optional<bool> may_reverse = {};
   core::Inertia linear_inertia = {};
   core::Inertia angular_inertia = {};
+  /// The first so many actions may be measured motion, which has no profiles.
+  std::size_t measured = std::numeric_limits<std::size_t>::max();
 };
 
 /// The actions of a robot from t = 0 in its start. Each begins exactly when and where the one before ends.
@@ -71,6 +74,7 @@ class ActionChain {
   void check_type(const core::Action& action, const JsonReader& item) const;
   void check_speed(const core::Action& action, const JsonReader& item) const;
   void check_profile(const core::Action& action, const JsonReader& item) const;
+  void check_has_profile(const core::Action& action, const JsonReader& item) const;
   void check_speeds_meet(const core::Action& action, const JsonReader& item) const;
   void check_reverse(const core::Action& action, const JsonReader& item) const;
   core::Action joined(core::Action action) const;
@@ -81,6 +85,7 @@ class ActionChain {
   std::optional<bool> may_reverse_;
   core::Inertia linear_inertia_;
   core::Inertia angular_inertia_;
+  std::size_t measured_;
   std::optional<double> now_ = 0.0;  // seconds; none: unknown, as is the pose
   std::optional<core::Pose> pose_;
   std::optional<double> speed_;  // at the end of the action before; none: unknown

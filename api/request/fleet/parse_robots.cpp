@@ -260,7 +260,9 @@ class RobotReader {
       read.robot.committed = std::move(committed->actions);
       read.received_committed = std::move(committed->received);
     }
-    if (auto previous = parse(json.find("previous"), owner)) {
+    ActionsOwner of_previous = owner;
+    of_previous.measured = read.robot.committed.size();
+    if (auto previous = parse(json.find("previous"), of_previous)) {
       read.robot.previous = std::move(previous->actions);
       read.received_previous = std::move(previous->received);
     }

@@ -67,7 +67,7 @@ class MotionCheck {
       if (k > 0) check_start_pose(k);
       check_type(k);
       check_speed(k);
-      check_profile(k, given);
+      if (k >= robot_.committed.size()) check_profile(k);  // committed motion may be measured
     }
     check_cost();
     return std::move(violations_);
@@ -165,7 +165,7 @@ class MotionCheck {
   }
 
   /// Checks the profile of a translation or rotation, by the laws of constant acceleration.
-  void check_profile(std::size_t k, std::size_t given) {
+  void check_profile(std::size_t k) {
     const Action& action = plan_.actions[k];
     if (action.type == Action::Type::wait) return;
     const bool turns = action.type == Action::Type::rotate;
@@ -200,9 +200,8 @@ class MotionCheck {
     }
     check_covered(k, profile, {gain, loss}, amount, tolerance);
     const bool goes_on = k > 0 && !turns && goes_on_straight(plan_.actions[k - 1], action, tolerance_);
-    const bool is_known = k > given || k == 0;  // committed motion may be measured, without profiles
-    const double before = goes_on ? end_speed(k - 1) : 0.0;
-    if (is_known && std::abs(profile.start - before) > tolerance) {
+    const double before = goes_on && k > robot_.committed.size() ? end_speed(k - 1) : 0.0;
+    if (std::abs(profile.start - before) > tolerance) {
       fault(profile.start, before, "that does not begin at the speed before");
     }
     const bool ends = k + 1 == plan_.actions.size() ||
