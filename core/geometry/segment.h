@@ -55,7 +55,8 @@ inline double covered_share(double elapsed, double ramp) {
 
 /// The inverse: the share of the time that it takes to cover a share of the way.
 inline double elapsed_share(double covered, double ramp) {
-  if (ramp == 0.0 || covered <= 0.0) return covered;
+  if (ramp == 0.0) return covered;
+  if (covered <= 0.0) return 0.0;
   const double start = 1.0 - ramp;
   const double root = std::sqrt(std::max(0.0, start * start + 4.0 * ramp * covered));
   return std::min(1.0, 2.0 * covered / (start + root));

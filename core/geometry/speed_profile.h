@@ -21,7 +21,9 @@ struct Inertia {
 
   /// Seconds from rest to rest over a distance (metres or radians, >= 0) at this greatest speed.
   double time(double distance, double speed) const {
-    const double mean = 0.5 * (rise + fall);
+    const double sum = rise + fall;
+    if (sum == 0.0) return distance / speed;
+    const double mean = 0.5 * sum;
     if (distance >= speed * speed * mean) return distance / speed + speed * mean;
     return 2.0 * std::sqrt(distance * mean);
   }

@@ -72,27 +72,56 @@ void BM_LineOfSight(benchmark::State& state) {
 }
 BENCHMARK(BM_LineOfSight)->ArgName("cells")->Arg(1)->Arg(8)->Arg(63);
 
-/// The window of departures that one timed segment forbids to a move to a neighbouring cell.
-void BM_ForbiddenDepartures(benchmark::State& state) {
-  const core::OccupancyGrid grid(64, 64, 1.0);
-  const auto mine = random_segments(grid, 1);
-  core::Random random(2);
+/// Moves to neighbouring cells, and timed segments near them.
+struct Encounters {
+  explicit Encounters(double ramp) {
+    const core::OccupancyGrid grid(64, 64, 1.0);
+    mine = random_segments(grid, 1);
+    core::Random random(2);
+    for (const Segment& segment : mine) {
+      const Position from = random_center_near(grid, segment.from, 3, random);
+      const Segment path{from, random_center_near(grid, from, 3, random)};
+      const double begin = 10.0 * random.unit();
+      others.emplace_back(TimedSegment{path, begin, begin + path.length() / 1.5, ramp});
+    }
+  }
+  std::vector<Segment> mine;
   std::vector<core::MovingDisk> others;
-  for (const Segment& segment : mine) {
-    const Position from = random_center_near(grid, segment.from, 3, random);
-    const Segment path{from, random_center_near(grid, from, 3, random)};
-    const double begin = 10.0 * random.unit();
-    others.emplace_back(TimedSegment{path, begin, begin + path.length() / 1.5});
+};
+
+/// The window of departures that one timed segment forbids to a move to a neighbouring cell: both at constant
+/// speed, or both from rest at constant acceleration.
+void BM_ForbiddenDepartures(benchmark::State& state) {
+  const auto ramp = static_cast<double>(state.range(0));
+  const Encounters encounters(ramp);
+  std::size_t next = 0;
+  for (auto _ : state) {
+    const std::size_t i = next++ % kInputs;
+    const Segment& mine = encounters.mine[i];
+    const Position move = mine.to - mine.from;
+    benchmark::DoNotOptimize(core::forbidden_departures(mine.from, move.normalized(), move.norm(),
+                                                        encounters.others[i], 0.8, ramp));
+  }
+}
+BENCHMARK(BM_ForbiddenDepartures)->ArgName("ramp")->Arg(0)->Arg(1);
+
+/// Whether two disks collide at one departure.
+void BM_Collide(benchmark::State& state) {
+  const auto ramp = static_cast<double>(state.range(0));
+  const Encounters encounters(ramp);
+  std::vector<core::MovingDisk> movers;
+  for (std::size_t i = 0; i < kInputs; ++i) {
+    const Segment& mine = encounters.mine[i];
+    const double begin = encounters.others[i].t_start;
+    movers.emplace_back(TimedSegment{mine, begin, begin + mine.length(), ramp});
   }
   std::size_t next = 0;
   for (auto _ : state) {
     const std::size_t i = next++ % kInputs;
-    const Position move = mine[i].to - mine[i].from;
-    benchmark::DoNotOptimize(
-        core::forbidden_departures(mine[i].from, move.normalized(), move.norm(), others[i], 0.8));
+    benchmark::DoNotOptimize(core::collide(movers[i], encounters.others[i], 0.8));
   }
 }
-BENCHMARK(BM_ForbiddenDepartures);
+BENCHMARK(BM_Collide)->ArgName("ramp")->Arg(0)->Arg(1);
 
 /// The reservations of a planned hall, but for the last robots, which ask.
 class Crowd {
