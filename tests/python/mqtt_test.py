@@ -52,7 +52,8 @@ class Mqtt(unittest.TestCase):
     def test_states_arrive_and_orders_are_sent(self):
         states, received = queue.Queue(), queue.Queue()
         with broker() as port, MqttTransport(states.put, manufacturer=["acme", "bolt"], host="127.0.0.1", port=port) as transport:
-            vehicle = paho.Client()
+            versions = getattr(paho, "CallbackAPIVersion", None)  # from 2.0 of paho-mqtt on
+            vehicle = paho.Client() if versions is None else paho.Client(versions.VERSION2)
             vehicle.on_message = lambda _client, _data, message: received.put((message.topic, json.loads(message.payload)))
             vehicle.connect("127.0.0.1", port)
             vehicle.subscribe("uagv/v2/acme/0815/order")

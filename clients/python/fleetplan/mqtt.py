@@ -1,17 +1,17 @@
 """Messages of VDA 5050 over MQTT. It needs paho-mqtt: `pip install fleetplan[mqtt]`, or Debian's python3-paho-mqtt."""
 
 import datetime
+import importlib
 import json
 import time
 from collections.abc import Callable, Collection, Iterable
 from types import TracebackType
 from typing import Any
 
-import paho.mqtt.client as paho  # type: ignore
-
 from fleetplan.types import VdaMessage
 from fleetplan.vda5050 import Message, VdaLoop
 
+_paho: Any = importlib.import_module("paho.mqtt.client")  # its types depend on the version
 _CONNECT = 10.0  # seconds: for which `start` waits for the broker
 
 
@@ -27,8 +27,8 @@ class MqttTransport:
         makes = {manufacturer} if isinstance(manufacturer, str) else set(manufacturer)
         self._address, self._root = (host, port), f"{interface}/v{version.split('.')[0]}"
         self._headers: dict[str, int] = {}  # the next headerId of each topic
-        versions = getattr(paho, "CallbackAPIVersion", None)  # from 2.0 of paho-mqtt on
-        self._client: Any = paho.Client() if versions is None else paho.Client(versions.VERSION1)
+        versions = getattr(_paho, "CallbackAPIVersion", None)  # from 2.0 of paho-mqtt on
+        self._client = _paho.Client() if versions is None else _paho.Client(versions.VERSION2)
         if username is not None:
             self._client.username_pw_set(username, password)
         if tls:
