@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "api/advance/advance.h"
 #include "api/advance/committed_motion.h"
@@ -225,12 +226,25 @@ class Clearing {
     stop_.met_after(kWorkOfAPiece * pieces_[index].size());
     if (!shortens(index, t)) return;
     if (t < kNothing) t = 0.0;
-    robot.committed = stopped_by(robot.committed, t);
-    if (robot.previous) robot.previous = split_at(*robot.previous, t);
+    Actions stopped = stopped_by(robot.committed, t);
+    const double end = stopped.empty() ? 0.0 : stopped.back().t_end;
+    if (end > t + kSameEnd) {
+      end_abruptly(robot, t);
+    } else {
+      robot.committed = std::move(stopped);
+      if (robot.previous) robot.previous = split_at(*robot.previous, t);
+    }
     pieces_[index] = committed_pieces(robot);
     if (waits_[index]) return;
     waits_[index] = true;
     waiting_.push_back(index);
+  }
+
+  /// A robot that cannot stop before it touches another one: what is known of its motion ends there.
+  static void end_abruptly(core::Robot& robot, double t) {
+    robot.committed = executed_until(robot.committed, t);
+    if (!robot.committed.empty()) robot.committed.back().profile.reset();
+    robot.previous.reset();
   }
 
   std::vector<core::Robot>& robots_;

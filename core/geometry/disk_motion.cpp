@@ -80,7 +80,9 @@ bool comes_near(const Parabola& motion, double reach) {
   return comes_near(motion.half(false), reach) || comes_near(motion.half(true), reach);
 }
 
-bool have_ramps(const MovingDisk& a, const MovingDisk& b) { return a.ramp != 0.0 || b.ramp != 0.0; }
+bool have_ramps(const MovingDisk& a, const MovingDisk& b) {
+  return std::abs(a.ramp) + std::abs(b.ramp) > 0.0;
+}
 
 }  // namespace
 
@@ -157,7 +159,7 @@ UnsafeInterval forbidden_departures_with_ramps(MovingDisk mine, double duration,
 
 UnsafeInterval forbidden_departures(const Position& from, const Position& velocity, double duration,
                                     const MovingDisk& b, double reach, double ramp) {
-  if (ramp != 0.0 || b.ramp != 0.0) {
+  if (std::abs(ramp) + std::abs(b.ramp) > 0.0) {
     MovingDisk mine;
     mine.from = from;
     mine.velocity = velocity;

@@ -17,18 +17,16 @@ struct Inertia {
   double rise = 0.0;  // seconds squared per metre: 1 / acceleration
   double fall = 0.0;  // 1 / deceleration
 
-  bool any() const { return rise > 0.0 || fall > 0.0; }
+  bool any() const { return rise + fall > 0.0; }
 
   /// Seconds from rest to rest over a distance (metres or radians, >= 0) at this greatest speed.
   double time(double distance, double speed) const {
-    const double sum = rise + fall;
-    if (sum == 0.0) return distance / speed;
-    const double mean = 0.5 * sum;
-    if (distance >= speed * speed * mean) return distance / speed + speed * mean;
-    return 2.0 * std::sqrt(distance * mean);
+    return any() ? limited_time(distance, speed) : distance / speed;
   }
   /// The part of that time that starting and stopping take; it never falls with the distance.
   double loss(double distance, double speed) const { return time(distance, speed) - distance / speed; }
+  /// time(), with a limit; not inline, so that searches without limits stay small.
+  double limited_time(double distance, double speed) const;
 };
 
 /// The speed of one action, metres (or radians) per second. cruise >= start, end.

@@ -100,8 +100,10 @@ EdgeId Successors::add_edge(LabelId via, PlaceId target, bool with_shortcut, boo
   // Past a slow zone, the way round may be the faster one.
   const bool is_slower =
       zones_ != nullptr && shortcut.ready + shortcut.duration > local.ready + local.duration + kSameTime;
-  const bool bends = !vertices_.any_angle() && angle_between(shortcut.heading, local.heading) > kSameHeading;
-  with_shortcut = with_shortcut && !is_slower && !bends;
+  with_shortcut = with_shortcut && !is_slower;
+  if (with_shortcut && !vertices_.any_angle()) {
+    with_shortcut = angle_between(shortcut.heading, local.heading) <= kSameHeading;
+  }
   if (!with_shortcut) shortcut = Move{};
   return state_.edges.push_back(
       {local, shortcut, via, target, with_shortcut ? Edge::Sight::unknown : Edge::Sight::blocked});
