@@ -2,6 +2,7 @@
 
 import { EditPanel } from "./edit/edit_panel.js";
 import { Address } from "./files/address.js";
+import { ExampleChoice } from "./files/example_choice.js";
 import { keptPlans, keptRequests } from "./files/kept.js";
 import { mapTasks } from "./files/map_tasks.js";
 import { Opening } from "./files/opening.js";
@@ -62,10 +63,11 @@ const show = (part) => {
   else tabs.choose(part === "comparison" ? "tab-analyse" : `tab-${part}`);
   if (part === "comparison") earlier.compare();
 };
-const opening = new Opening(session, service.fetchExample, show, mapTasks());
+const work = mapTasks();
+const opening = new Opening(session, service.fetchExample, show, work);
 const address = new Address(session, opening, keptRequests());
 const keeper = new PlanKeeper(session, opening, keptPlans());
-const setup = new Setup(session, opening);
+const setup = new Setup(session, opening, new ExampleChoice(colours, service.fetchExample, work));
 const planButton = new PlanButton(session, transport);
 const edit = new EditPanel(session, stage, tabs, opening);
 watchRequest(session, service.validate);

@@ -1,6 +1,6 @@
 // Choosing what to plan: an example, files opened or dropped on the page, pasted text.
 
-import { byId, element, setText } from "../ui/dom.js";
+import { byId, setText } from "../ui/dom.js";
 import { count } from "../ui/format.js";
 import { ACCEPT } from "./file_kinds.js";
 
@@ -11,20 +11,19 @@ export class Setup {
   #session;
   #opening;
   #examples = [];
-  #select = byId("example");
+  #choice;
   #file = byId("file");
   #paste = byId("paste");
   #form = byId("paste-form");
   #text = byId("paste-text");
 
-  /** `opening`: see Opening. */
-  constructor(session, opening) {
+  /** `opening`: see Opening; `choice`: see ExampleChoice. */
+  constructor(session, opening, choice) {
     this.#session = session;
     this.#opening = opening;
+    this.#choice = choice;
     this.#file.accept = ACCEPT;
-    this.#select.addEventListener("change", () => {
-      if (this.#select.value !== "") opening.example(this.#select.value);
-    });
+    choice.onChoose((name) => opening.example(name));
     byId("open").addEventListener("click", () => this.#file.click());
     this.#file.addEventListener("change", () => {
       const files = [...this.#file.files];
@@ -58,15 +57,7 @@ export class Setup {
 
   #showExamples(examples) {
     this.#examples = examples;
-    this.#select.replaceChildren(
-      ...this.#examples.map(({ name, title }) =>
-        element("option", { value: name, textContent: title || name }),
-      ),
-    );
-    this.#select.disabled = this.#examples.length === 0;
-    if (this.#examples.length === 0) {
-      this.#select.append(element("option", { value: "", textContent: "No examples" }));
-    }
+    this.#choice.show(examples);
   }
 
   #refresh() {
@@ -75,24 +66,20 @@ export class Setup {
     const { grid, robots } = scene;
     const size = grid ? `${grid.columns} × ${grid.rows} cells` : "no map";
     setText(byId("facts"), `${count(robots.length, "robot")}, ${size}`);
-    const description = byId("description");
-    setText(description, this.#examples.find(({ name }) => name === example)?.description ?? "");
-    description.hidden = description.textContent === "";
+    setText(byId("description"), this.#example(example)?.description ?? "");
     byId("scene").setAttribute("aria-label", `Map of ${size} with ${count(robots.length, "robot")}`);
   }
 
-  /** Shows which example is chosen; other and edited requests by their names. */
+  /** Shows which example is chosen, and the name of what is open. */
   #showChosen() {
     const { request, example, name, edited } = this.#session;
     if (request === null) return;
-    this.#select.querySelector("option[data-own]")?.remove();
-    if (example !== null) {
-      this.#select.value = example;
-      return;
-    }
-    const textContent = edited ? `${name} (edited)` : name;
-    this.#select.prepend(element("option", { value: "", textContent, "data-own": "" }));
-    this.#select.selectedIndex = 0;
+    this.#choice.mark(example);
+    setText(byId("request-name"), this.#example(example)?.title || (edited ? `${name} (edited)` : name));
+  }
+
+  #example(name) {
+    return this.#examples.find((each) => each.name === name);
   }
 
   async #onPaste(event) {

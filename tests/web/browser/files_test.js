@@ -435,7 +435,7 @@ test("a link holds the name of an example, or else the request itself", async ()
   await onPage(
     async (page) => {
       assert.deepEqual(await hook(page, "request"), TINY);
-      assert.match(await page.innerText("#example option:checked"), /linked request/);
+      assert.match(await page.innerText("#request-name"), /linked request/);
       await page.evaluate(() => (location.hash = "#crossing"));
       await page.waitForFunction(() => window.fleetplan.request.robots.length === 8);
     },

@@ -6,7 +6,7 @@ import { test } from "node:test";
 import { fileURLToPath } from "node:url";
 import { promisify } from "node:util";
 
-import { planned } from "../support/browser.js";
+import { chosenExample, planned } from "../support/browser.js";
 import { hallWith } from "../support/hall.js";
 import { hook, pagesFor, paste } from "../support/on_page.js";
 
@@ -27,7 +27,7 @@ async function visitAgain(page, url) {
 test("a first visit shows a warehouse whose plan plays, and says what is seen", async () => {
   await onFirstVisit(async (page) => {
     await welcomed(page);
-    assert.equal(await page.inputValue("#example"), "warehouse");
+    assert.equal(await chosenExample(page), "warehouse");
     await page.waitForFunction(() => window.fleetplan.time > 0);
     const { plans } = await hook(page, "answer");
     const robots = new RegExp(`^${plans.length} robots cross a warehouse, .* planned in [0-9.]+ m?s`);
@@ -52,7 +52,7 @@ test("with reduced motion, a first visit shows the plan at rest", async () => {
 test("an address says what a first visit shows", async () => {
   await onFirstVisit(
     async (page) => {
-      assert.equal(await page.inputValue("#example"), "crossing");
+      assert.equal(await chosenExample(page), "crossing");
       await page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 0)));
       assert.equal(await hook(page, "answer"), null);
       assert.equal(await page.isVisible("#welcome"), false);

@@ -3,6 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
+import { pickExample } from "../support/browser.js";
 import { hook, pagesFor, paste } from "../support/on_page.js";
 
 const onPage = pagesFor();
@@ -72,7 +73,7 @@ test("leaving asks if the browser does not keep the request", async () => {
     await paste(page, largeRequest());
     await hasRobots(page, ROBOTS);
     await page.waitForFunction(leavingAsks, true);
-    await page.selectOption("#example", "crossing");
+    await pickExample(page, "crossing");
     await page.waitForFunction(() => location.hash === "#crossing");
     assert.ok(await page.evaluate(leavingAsks, false), "an example is not lost");
   });

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { choose, planAndPause, pressPlan, seek } from "../support/browser.js";
+import { choose, chosenExample, planAndPause, pressPlan, seek } from "../support/browser.js";
 import { expectedPose, headingGap } from "../support/expected_pose.js";
 import { coloursAt, hasTime, hook, pagesFor, paste, pasteText, REFUSED } from "../support/on_page.js";
 
@@ -294,7 +294,7 @@ test("an error that points to a robot selects it", async () => {
 });
 
 test("an address can name an example", async () => {
-  await onPage(async (page) => assert.equal(await page.inputValue("#example"), "partly-solvable"), {
+  await onPage(async (page) => assert.equal(await chosenExample(page), "partly-solvable"), {
     hash: "#partly-solvable",
   });
 });
@@ -488,23 +488,51 @@ test("a phone shows the page without scrolling sideways", async () => {
   );
 });
 
-test("the names of all examples are whole, on a desktop and on a phone", async () => {
-  for (const width of [1440, 390]) {
+/** On the page: whether a picture is of a map with robots. */
+function isDrawn(canvas) {
+  const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d", {
+    willReadFrequently: true,
+  });
+  copy.drawImage(canvas, 0, 0);
+  const { data } = copy.getImageData(0, 0, canvas.width, canvas.height);
+  return new Set(new Uint32Array(data.buffer)).size > 10;
+}
+
+for (const width of [1440, 390]) {
+  test(`the examples are pictures with whole names, drawn as they come into sight, ${width} pixels`, async () => {
     await onPage(
       async (page) => {
-        const cut = await page.evaluate(() => {
-          const select = document.getElementById("example");
-          const context = new OffscreenCanvas(1, 1).getContext("2d");
-          const { font, paddingLeft, paddingRight } = getComputedStyle(select);
-          context.font = font;
-          const arrow = 24; // pixels that the browser may take
-          const room = select.clientWidth - parseFloat(paddingLeft) - parseFloat(paddingRight) - arrow;
-          const names = [...select.options].map(({ textContent }) => `${textContent} (edited)`);
-          return names.filter((name) => context.measureText(name).width > room);
-        });
+        const cut = await page.$$eval(".example", (items) =>
+          items
+            .filter((item) => {
+              const [inner, outer] = [item, item.parentElement].map((part) => part.getBoundingClientRect());
+              return item.scrollWidth > item.clientWidth || inner.bottom > outer.bottom;
+            })
+            .map(({ textContent }) => textContent),
+        );
         assert.deepEqual(cut, []);
+        const pictures = page.locator(".example canvas");
+        await page.waitForFunction(isDrawn, await pictures.first().elementHandle());
+        assert.equal(await pictures.last().evaluate(isDrawn), false, "not before it is in sight");
+        await page.evaluate(() => document.getElementById("examples").scrollBy(10_000, 0));
+        await page.waitForFunction(isDrawn, await pictures.last().elementHandle());
       },
       { options: { viewport: { width, height: 844 } } },
     );
-  }
+  });
+}
+
+test("the pictures of examples are chosen by a click and by arrow keys", async () => {
+  await onPage(async (page) => {
+    const { examples } = await page.evaluate(async () => (await fetch("v1/examples")).json());
+    const isOpen = async ({ name, title, robots }) => {
+      await page.waitForFunction((count) => window.fleetplan.request.robots.length === count, robots);
+      assert.equal(await text(page, "#request-name"), title);
+      assert.equal(await chosenExample(page), name);
+    };
+    await page.click(`[data-example="${examples[1].name}"]`);
+    await isOpen(examples[1]);
+    await page.keyboard.press("ArrowRight");
+    await isOpen(examples[2]);
+  });
 });

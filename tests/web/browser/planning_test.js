@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { choose, openPage, pressPlan, startBrowser } from "../support/browser.js";
+import { choose, chosenExample, openPage, pressPlan, startBrowser } from "../support/browser.js";
 import { hook, pagesFor, paste, streamPlan } from "../support/on_page.js";
 import { startService } from "../support/service.js";
 
@@ -75,7 +75,7 @@ test("the outcome is announced with both costs", async () => {
 test("the best plan is kept when the connection is lost", async () => {
   await onPage(async (page) => {
     const better = await pressPlan(page);
-    await choose(page, await page.inputValue("#example"));
+    await choose(page, await chosenExample(page));
     assert.equal(await hook(page, "answer"), null);
     const worse = { ...better, plans: better.plans.slice(1) };
     await streamPlan(page, [...progressOf([[90, 40]]), ["incumbent", worse], ["incumbent", better]], {

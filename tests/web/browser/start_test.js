@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { fileURLToPath } from "node:url";
 
-import { newContext, pressPlan, startBrowser } from "../support/browser.js";
+import { chosenExample, newContext, pickExample, pressPlan, startBrowser } from "../support/browser.js";
 import { startService } from "../support/service.js";
 
 const SOURCES = fileURLToPath(new URL("../../../web", import.meta.url));
@@ -51,7 +51,7 @@ for (const part of ["**/model/scene.js", "**/main.js", "**/styles/main.css"]) {
       await found();
       await page.click("#not-loaded a");
       await begun(page);
-      assert.equal(await page.inputValue("#example"), "partly-solvable");
+      assert.equal(await chosenExample(page), "partly-solvable");
       assert.equal(await page.locator("#not-loaded").count(), 0);
     });
   });
@@ -86,7 +86,7 @@ test("a page that loads shows no such notice meanwhile", async () => {
       await route.continue();
     });
     await page.goto(service.url, { waitUntil: "commit" });
-    await page.waitForSelector("#example");
+    await page.waitForSelector("#examples");
     const { after, at } = await stopNotice(page);
     await at(after - 0.1);
     assert.equal(await page.isVisible("#not-loaded"), false);
@@ -146,7 +146,7 @@ test("examples and limits that do not load are loaded again on demand", async ()
       await page.click("#problem .again");
       await begun(page);
       await page.waitForSelector("#problem", { state: "hidden" });
-      assert.ok((await page.locator("#example option").count()) > 3);
+      assert.ok((await page.locator("input[name=example]").count()) > 3);
     });
   }
 });
@@ -156,7 +156,7 @@ test("an example that does not load is loaded again on demand", async () => {
     await page.goto(service.url);
     await begun(page);
     const found = await losing(page, "**/v1/examples/crossing");
-    await page.selectOption("#example", "crossing");
+    await pickExample(page, "crossing");
     await page.waitForSelector("#problem .again");
     await found();
     await page.click("#problem .again");

@@ -77,7 +77,7 @@ export async function choose(page, name) {
     async (example) => (await fetch(`v1/examples/${example}`)).json(),
     name,
   );
-  await page.selectOption("#example", name);
+  await pickExample(page, name);
   await page.waitForFunction(
     ({ before, text }) =>
       window.fleetplan.request !== before && JSON.stringify(window.fleetplan.request) === text,
@@ -85,6 +85,17 @@ export async function choose(page, name) {
   );
   return expected;
 }
+
+/** Chooses an example, as a press on its picture does, also if it is the chosen one. */
+export async function pickExample(page, name) {
+  await page.locator(`input[name=example][value="${name}"]`).evaluate((radio) => {
+    radio.checked = true;
+    radio.dispatchEvent(new Event("change", { bubbles: true }));
+  });
+}
+
+/** The name of the example that is chosen. */
+export const chosenExample = (page) => page.locator("input[name=example]:checked").inputValue();
 
 /** Presses Plan and waits for the answer. */
 export async function pressPlan(page) {
