@@ -60,6 +60,7 @@ const tabs = new Tabs(byId("tabs"));
 const transport = new Transport(session);
 const show = (part) => {
   if (part === "problem") revealProblem();
+  else if (part === "robots") edit.pick("robot");
   else tabs.choose(part === "comparison" ? "tab-analyse" : `tab-${part}`);
   if (part === "comparison") earlier.compare();
 };

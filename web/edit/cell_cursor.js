@@ -32,6 +32,11 @@ export class CellCursor {
     };
   }
 
+  /** Whether the mouse is at the cell, or keys move it. */
+  get isSeen() {
+    return this.cell !== null && (this.#shown || document.activeElement === this.#stage.canvas);
+  }
+
   /** The mouse is at a world point, or has left (null). */
   hover(world) {
     const { grid } = this.#session.scene;
@@ -59,9 +64,8 @@ export class CellCursor {
    */
   paint(context, { scale, screen, theme }, frame) {
     const { other = null, sign } = frame;
-    const focused = document.activeElement === this.#stage.canvas;
     const { cell } = this;
-    if (cell === null || (!this.#shown && !focused && other === null)) return;
+    if (cell === null || (!this.isSeen && other === null)) return;
     const { grid } = this.#session.scene;
     const end = other ?? cell;
     const half = (grid.resolution * scale) / 2;

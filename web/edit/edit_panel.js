@@ -8,6 +8,7 @@ import { GoalsForm } from "./goals_form.js";
 import { GroupForm } from "./group_form.js";
 import { MapForm, watchNewMapForm } from "./map_form.js";
 import { ObstacleForm } from "./obstacle_form.js";
+import { PlacingPanel } from "./placing_panel.js";
 import { RobotActions } from "./robot_actions.js";
 import { RobotForm, watchDefaultsForm, watchRobotPicker } from "./robot_form.js";
 import { RobotTool } from "./robot_tool.js";
@@ -68,17 +69,20 @@ export class Toolbox {
   #tabs;
   #radios = new Map(); // name -> input
   #chosen = "select";
+  #placing;
 
   /** `choice`: see RobotChoice; `actions`: see RobotActions. */
   constructor(session, stage, tabs, choice, actions, zoneTool) {
     this.#stage = stage;
     this.#tabs = tabs;
+    const robotTool = new RobotTool(session, stage, choice, actions);
+    this.#placing = new PlacingPanel(session, robotTool, (name) => this.pick(name));
     this.#tools = {
       select: { label: "Select", key: "V", tool: new SelectTool(session, stage, choice, actions) },
       wall: { label: "Wall", key: "W", tool: new DrawTool(session, stage, true) },
       erase: { label: "Erase", key: "E", tool: new DrawTool(session, stage, false) },
       box: { label: "Box", key: "B", tool: new BoxTool(session, stage) },
-      robot: { label: "Robot", key: "A", tool: new RobotTool(session, stage, choice, actions) },
+      robot: { label: "Robot", key: "A", tool: robotTool },
       zone: { label: "Zone", key: "Z", tool: zoneTool },
     };
     byId("tools").replaceChildren(...Object.keys(this.#tools).map((name) => this.#button(name)));
@@ -122,6 +126,7 @@ export class Toolbox {
     const editing = this.#tabs.chosen === TAB;
     document.documentElement.classList.toggle("editing", editing);
     this.#stage.setTool(editing ? tool : null);
+    this.#placing.show(editing ? tool : null);
   }
 }
 

@@ -3,7 +3,7 @@
 import { deleteRobot, duplicateRobot, nameOf, removeGoal, setPose } from "../model/edit_request.js";
 import { lastGoalOf } from "../model/goals.js";
 import { robotsOf } from "../model/listed.js";
-import { nearestFreePlace } from "../model/placement.js";
+import { endDisks, nearestFreePlace, startDisks } from "../model/placement.js";
 import { degrees } from "../ui/format.js";
 
 const ROOM = 2.5; // radii between a start and its new goal
@@ -38,9 +38,8 @@ export class RobotActions {
     const { robot, index } = this.#choice;
     const { request, scene } = this.#session;
     if (index === null) return;
-    const start = robot && this.#freePlace(robot, robot.start, scene.robots.map(startDisk));
-    const goal =
-      robot?.goal && this.#freePlace(robot, robot.goal, scene.robots.map(goalDisk).filter(Boolean));
+    const start = robot && this.#freePlace(robot, robot.start, startDisks(scene));
+    const goal = robot?.goal && this.#freePlace(robot, robot.goal, endDisks(scene));
     this.#session.edit(duplicateRobot(request, index, start, goal));
     const name = this.#name;
     this.#choice.choose(robotsOf(this.#session.request).length - 1);
@@ -59,9 +58,8 @@ export class RobotActions {
   /** Gives the selected robot a goal beside its start, with any heading. */
   addGoal() {
     const { robot } = this.#choice;
-    const { scene } = this.#session;
-    const goals = scene.robots.map(goalDisk).filter(Boolean);
-    const place = robot && this.#freePlace(robot, robot.start, goals, ROOM * robot.radius);
+    const others = endDisks(this.#session.scene, robot);
+    const place = robot && this.#freePlace(robot, robot.start, others, ROOM * robot.radius);
     this.setPose("goal", place ?? { x: 0, y: 0 });
     this.announcePose("goal");
   }
@@ -82,6 +80,3 @@ export class RobotActions {
     return found ?? { x: point.x, y: point.y };
   }
 }
-
-const startDisk = ({ start, radius }) => ({ ...start, radius });
-const goalDisk = ({ goal, radius }) => goal && { ...goal, radius };

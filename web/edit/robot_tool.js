@@ -1,23 +1,31 @@
-// The tool that adds robots.
+// The tool that adds robots: a click for the start and one for the goal, or a drag from one to the other. What is about to
+// be placed is shown to scale, beside walls and others where it is too near to them.
 
 import { centreOf } from "../model/cells.js";
-import { addRobot, nameOf } from "../model/edit_request.js";
+import { addRobot, nameOf, numbersOfNext } from "../model/edit_request.js";
 import { robotsOf } from "../model/listed.js";
-import { snapPoint } from "../model/placement.js";
+import { endDisks, placeWithRoom, snapPoint, startDisks } from "../model/placement.js";
+import { drawPath, markWrong, ring } from "../scene/marks.js";
+import { metres } from "../ui/format.js";
 import { CellCursor } from "./cell_cursor.js";
+
+const SHOWN = { width: 2, alpha: 1, dashes: [] };
+const WAY = { width: 1.5, alpha: 0.8, dashes: [3, 5] };
 
 let gestures = 0; // for unique names
 
 export class RobotTool {
-  help = "Drag from a start to a goal to add a robot; a click adds one without a goal.";
-  keys = "Alt: no snapping.";
+  help = "Click where a robot starts, and then where it goes; or drag from one to the other.";
+  keys = "Alt: exactly here. Esc: without a goal.";
 
   #session;
   #choice;
   #actions;
   #cursor;
   /** @type {any} */
-  #pressed = null; // {start, gesture, added} while pressed
+  #pressed = null; // {start: null if it does not fit, gesture, index: of the robot, null until it is added} while pressed
+  /** @type {string | null} */
+  #added = null; // the id of the robot that was added last, by a click
 
   /** `choice`: see RobotChoice; `actions`: see RobotActions. */
   constructor(session, stage, choice, actions) {
@@ -25,26 +33,44 @@ export class RobotTool {
     this.#choice = choice;
     this.#actions = actions;
     this.#cursor = new CellCursor(session, stage);
+    session.on("request", ({ opened }) => opened && (this.#added = null));
+  }
+
+  /** The robot that the next click gives its goal, or null. */
+  get awaiting() {
+    const { robot } = this.#choice;
+    return this.#added !== null && robot?.id === this.#added && robot.goal === null ? robot : null;
   }
 
   press(world, event) {
     gestures += 1;
-    this.#pressed = { start: this.#snap(world, event), gesture: `add ${gestures}`, added: false };
+    const gesture = `add ${gestures}`;
+    const { awaiting } = this;
+    if (awaiting !== null) {
+      this.#pressed = { start: awaiting.start, gesture, index: awaiting.index };
+      this.#aim(world, event);
+    } else {
+      this.#pressed = { start: this.#startAt(world, event), gesture, index: null };
+    }
     return true;
   }
 
   drag(world, event) {
-    const { start, gesture } = this.#pressed;
-    this.#add();
     this.#cursor.hover(world);
-    const goal = this.#snap(world, event);
-    const radius = this.#choice.robot?.radius ?? 0;
-    if (Math.hypot(goal.x - start.x, goal.y - start.y) > radius) this.#actions.setPose("goal", goal, gesture);
+    if (this.#pressed.start === null) return;
+    if (this.#pressed.index === null) this.#add();
+    this.#aim(world, event);
   }
 
   release() {
-    this.#add();
-    this.#announce();
+    const { start, index } = this.#pressed;
+    if (start === null) {
+      const { radius } = numbersOfNext(this.#session.request);
+      this.#session.announce(`A robot with a radius of ${metres(radius)} does not fit here.`);
+    } else {
+      if (index === null) this.#add();
+      this.#announce();
+    }
     this.abort();
   }
 
@@ -61,8 +87,30 @@ export class RobotTool {
     return "copy";
   }
 
+  /** Shows to scale what a click would place. */
   paint(context, view) {
-    if (!this.#pressed) this.#cursor.paint(context, view, { sign: "add" });
+    const { cell } = this.#cursor;
+    const { scene, request } = this.#session;
+    if (this.#pressed || cell === null || !this.#cursor.isSeen) return;
+    const { awaiting } = this;
+    const point = centreOf(scene.grid, cell);
+    const radius = awaiting?.radius ?? numbersOfNext(request).radius;
+    const place = awaiting ? this.#goalAt(point, {}) : this.#startAt(point, {});
+    if (place === null) {
+      markWrong(context, view, point, radius);
+      return;
+    }
+    const { screen, scale, theme } = view;
+    const at = screen(place);
+    if (awaiting) drawPath(context, [screen(awaiting.start), at], theme.accent, WAY);
+    context.save();
+    context.globalAlpha = awaiting ? 0.14 : 0.4;
+    context.fillStyle = theme.accent;
+    context.beginPath();
+    context.arc(at.x, at.y, Math.max(radius * scale, 3), 0, 2 * Math.PI);
+    context.fill();
+    context.restore();
+    ring(context, at, Math.max(radius * scale, 3), theme.accent, SHOWN);
   }
 
   key(event) {
@@ -75,23 +123,45 @@ export class RobotTool {
   }
 
   #add() {
-    if (this.#pressed.added) return;
-    this.#pressed.added = true;
     const { start, gesture } = this.#pressed;
     this.#session.edit(addRobot(this.#session.request, start), gesture);
-    this.#choice.choose(robotsOf(this.#session.request).length - 1);
+    const robots = robotsOf(this.#session.request);
+    this.#pressed.index = robots.length - 1;
+    this.#added = robots.at(-1).id;
+    this.#choice.choose(this.#pressed.index);
+  }
+
+  /** Puts the goal of the robot at a world point, unless that is its start. */
+  #aim(world, event) {
+    const { start, gesture } = this.#pressed;
+    const goal = this.#goalAt(world, event);
+    const radius = this.#choice.robot?.radius ?? 0;
+    if (goal === null || Math.hypot(goal.x - start.x, goal.y - start.y) <= radius) return;
+    this.#actions.setPose("goal", goal, gesture);
   }
 
   #announce() {
     const { request } = this.#session;
-    const index = robotsOf(request).length - 1;
-    const { start, goal } = request.robots[index];
-    const where = `(${start.x}, ${start.y}) m`;
+    const { index } = this.#pressed;
+    const { start, goal } = robotsOf(request)[index];
     const aim = goal ? `with its goal at (${goal.x}, ${goal.y}) m` : "without a goal";
-    this.#session.announce(`${nameOf(request, index)} added at ${where}, ${aim}.`);
+    this.#session.announce(`${nameOf(request, index)} starts at (${start.x}, ${start.y}) m, ${aim}.`);
   }
 
-  #snap(world, { altKey }) {
-    return snapPoint(this.#session.scene.grid, world, altKey);
+  #startAt(world, event) {
+    const { radius } = numbersOfNext(this.#session.request);
+    return this.#placeAt(world, radius, startDisks(this.#session.scene), event);
+  }
+
+  #goalAt(world, event) {
+    const { robot } = this.#choice;
+    if (!robot) return null;
+    return this.#placeAt(world, robot.radius, endDisks(this.#session.scene, robot), event);
+  }
+
+  /** Where a disk is put by a click: beside what is in its way, or null if that is too far; with Alt, exactly there. */
+  #placeAt(world, radius, others, { altKey = false }) {
+    const { grid } = this.#session.scene;
+    return grid && !altKey ? placeWithRoom(grid, world, radius, others) : snapPoint(grid, world, altKey);
   }
 }

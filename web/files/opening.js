@@ -24,7 +24,7 @@ export class Opening {
 
   /**
    * `fetchExample(name)` resolves to an example's text. `show(part)` brings a part of
-   * the page into sight: "plan", "comparison" (of the plan with the one before), "edit" or "problem". `work`: see
+   * the page into sight: "plan", "comparison" (of the plan with the one before), "robots" (to place) or "problem". `work`: see
    * MAP_WORK.
    */
   constructor(session, fetchExample, show, work) {
@@ -139,8 +139,8 @@ export class Opening {
       this.#check();
     }
     if (Array.isArray(opened.request.robots) && opened.request.robots.length === 0) {
-      session.announce(`${opened.name} is open and has no robots yet: add some under Edit.`);
-      this.#show("edit");
+      session.announce(`${opened.name} is open and has no robots yet: click where one starts.`);
+      this.#show("robots");
     }
   }
 }

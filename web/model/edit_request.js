@@ -109,7 +109,8 @@ export function newMap({ columns, rows, resolution, walled }) {
     if (!walled) return open;
     return row === 0 || row === rows - 1 ? wall : between;
   });
-  return { map: { rows: lines, resolution }, robots: [] };
+  const map = { rows: lines, resolution };
+  return { map, robot_defaults: numbersOfNext({ map }), robots: [] };
 }
 
 /** Why a map of this size is invalid, in words, or null. `limits`: see Session. */
@@ -165,17 +166,24 @@ export function removeGoal(request, index) {
 }
 
 /**
- * The request with a new robot at the end, with a start {x, y} and an optional goal. Radius and speeds are
- * those of robot_defaults, else of the last robot, else defaults for the map.
+ * The radius and the speeds of a robot that is added: those of robot_defaults, else of the last robot, else defaults for
+ * the map.
  */
-export function addRobot(request, start, goal = undefined) {
-  const robots = robotsOf(request);
-  const last = objectOf(robots.at(-1));
+export function numbersOfNext(request) {
+  const last = objectOf(robotsOf(request).at(-1));
   const resolution = asRows(request?.map)?.resolution ?? 1;
   const usual = { radius: RADIUS_SHARE * (resolution > 0 ? resolution : 1), ...SPEEDS };
+  const sources = [objectOf(request?.robot_defaults), last, usual];
+  const of = (name) => sources.map((source) => source[name]).find((value) => value > 0);
+  return { radius: of("radius"), linear_speed: of("linear_speed"), angular_speed: of("angular_speed") };
+}
+
+/** The request with a new robot at the end, with a start {x, y} and an optional goal. See numbersOfNext. */
+export function addRobot(request, start, goal = undefined) {
+  const robots = robotsOf(request);
   const robot = { id: freshId(request) };
-  for (const name of ["radius", "linear_speed", "angular_speed"]) {
-    if (!(request?.robot_defaults?.[name] > 0)) robot[name] = last[name] > 0 ? last[name] : usual[name];
+  for (const [name, value] of Object.entries(numbersOfNext(request))) {
+    if (!(request?.robot_defaults?.[name] > 0)) robot[name] = value;
   }
   robot.start = start;
   if (goal !== undefined) robot.goal = goal;

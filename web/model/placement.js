@@ -2,6 +2,8 @@
 
 import { cellAt, centreOf, isFree, tidy } from "./cells.js";
 
+/** @import {Robot, Scene} from "./types.js" */
+
 const HEADING = Math.PI / 12; // radians: 15 degrees
 const FINE = 0.01; // of a cell: the precision of a hand
 const CONTACT = 1e-9; // metres: touching is not a collision
@@ -49,14 +51,44 @@ function normalised(theta) {
   return Math.abs(rest) < 1e-12 ? 0 : rest;
 }
 
+/** Where robots start, as disks. */
+export const startDisks = ({ robots }) => robots.map(({ start, radius }) => ({ ...start, radius }));
+
+/** Where robots other than `but` stay at the end, as disks. */
+export const endDisks = ({ robots }, /** @type {Robot | null} */ but = null) =>
+  robots
+    .filter(({ id }) => id !== but?.id)
+    .map(({ goal, start, radius }) => ({ ...(goal ?? start), radius }));
+
+/** The middle of the cell at a world point, or of one within a radius of it, where a disk fits; null if there is none. */
+export function placeWithRoom(grid, point, radius, others) {
+  return nearestFreePlace(grid, snapPoint(grid, point, false), radius, others, 0, radius);
+}
+
 /**
- * The middle of the cell nearest to a world point, but at least `beyond` metres away, where a disk of this
- * radius touches neither wall nor `others`, disks [{x, y, radius}]; null if there is none.
+ * The robots that touch a wall or another robot at their start or goal: [{robot, pose: "start" or "goal"}], each once.
+ * @param {Scene} scene
  */
-export function nearestFreePlace(grid, point, radius, others, beyond = 0) {
+export function misplaced(scene) {
+  const [starts, ends] = [startDisks(scene), endDisks(scene)];
+  const fits = (disks, at) => {
+    const others = disks.filter((_, other) => other !== at);
+    return scene.grid === null || hasRoom(scene.grid, disks[at], disks[at].radius, others);
+  };
+  return scene.robots.flatMap((robot, at) => {
+    if (!fits(starts, at)) return [{ robot, pose: "start" }];
+    return robot.goal !== null && !fits(ends, at) ? [{ robot, pose: "goal" }] : [];
+  });
+}
+
+/**
+ * The middle of the cell nearest to a world point, but at least `beyond` and at most `within` metres away, where a disk of
+ * this radius touches neither wall nor `others`, disks [{x, y, radius}]; null if there is none.
+ */
+export function nearestFreePlace(grid, point, radius, others, beyond = 0, within = Infinity) {
   const home = cellAt(grid, point);
   let best = null;
-  let nearest = Infinity;
+  let nearest = within + CONTACT;
   const farthest = Math.max(grid.columns, grid.rows) + Math.hypot(home.column, home.row);
   for (let ring = 0; ring <= farthest && (ring - 1) * grid.resolution <= nearest; ring += 1) {
     for (const cell of ringOf(home, ring)) {

@@ -8,6 +8,8 @@ const DROPPED = [
   "#follow",
   "#ruler",
   "#drop-hint",
+  "#welcome",
+  "#placing",
   "#minimap",
   "#inspector",
   ".timeline",

@@ -37,6 +37,12 @@ const STATES = {
     await openTab(page, "edit");
     await page.click("#new-map button");
   },
+  "robots to place": async (page) => {
+    await page.click("#placing-robots");
+    await page.keyboard.press("Enter");
+    await page.fill("#placing-radius input", "40");
+    await page.waitForSelector("#placing-fit.wrong");
+  },
   "a form to paste into": (page) => page.click("#paste"),
   "a request with faults": async (page) => {
     await page.click("#paste");

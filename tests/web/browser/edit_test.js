@@ -448,7 +448,8 @@ test("a request is made from scratch: a new map, walls, robots, a plan", async (
       await page.fill("#new-rows", "5");
       await page.click("#new-map button");
       const rows = ["########", "#......#", "#......#", "#......#", "########"];
-      await isRequest(page, JSON.stringify({ map: { rows, resolution: 0.5 }, robots: [] }));
+      const robot_defaults = { radius: 0.2, linear_speed: 1, angular_speed: 3.1416 };
+      await isRequest(page, JSON.stringify({ map: { rows, resolution: 0.5 }, robot_defaults, robots: [] }));
       await page.waitForSelector(".tool:has([value=wall]:checked)");
       const judged = page.waitForResponse(/validate/);
       await press(page, { x: 1.75, y: 1.25 });
@@ -460,7 +461,7 @@ test("a request is made from scratch: a new map, walls, robots, a plan", async (
         { x: 3.25, y: 1.25 },
       ]);
       const [robot] = (await hook(page, "request")).robots;
-      assert.deepEqual([robot.id, robot.radius, robot.goal], ["robot-1", 0.2, { x: 3.25, y: 1.25 }]);
+      assert.deepEqual([robot.id, robot.goal], ["robot-1", { x: 3.25, y: 1.25 }]);
       assert.equal((await pressPlan(page)).status, "solved");
     },
     { allowed: REFUSED },
@@ -481,7 +482,7 @@ test("a request without a valid map or robots can be edited", async () => {
           ]);
         }
         await tool(page, "robot");
-        await press(page, { x: 0.5, y: 0.5 });
+        await press(page, { x: request.map?.rows ? 2.5 : 0.5, y: 0.5 }); // not in the wall
         assert.equal((await hook(page, "request")).robots.at(-1).id, "robot-1", JSON.stringify(request));
       },
       { allowed: REFUSED },
