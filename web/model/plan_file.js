@@ -81,6 +81,9 @@ export const OF_ANSWERS = {
   search: (value) => isNumber(value?.expansions),
   timings_ms: (value) => isNumber(value?.plan) && isNumber(value.total),
   unavoidable: isList,
+  dependencies: (value) => value === null || isList(value),
+  tight: (value) => value === null || isList(value),
+  estimated: (value) => isNumber(value?.flowtime) && isNumber(value.makespan),
   warnings: (value) => isList(value) && value.every((each) => isText(each?.detail ?? each)),
   tolerance: isNumber, // of the check
 };

@@ -1,7 +1,8 @@
 import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
 import { test } from "node:test";
 
-import { belongsTo, planFile, readDocument } from "../../../web/model/plan_file.js";
+import { belongsTo, OF_ANSWERS, planFile, readDocument } from "../../../web/model/plan_file.js";
 
 const pose = (x) => ({ x, y: 0.5, theta: 0 });
 const REQUEST = {
@@ -34,6 +35,27 @@ test("a request is recognised, even if it is faulty or only a map", () => {
   assert.deepEqual(readDocument(REQUEST), { request: REQUEST, answer: null });
   for (const document of [{ map: 7 }, { robots: [] }, { map: { rows: ["."] }, status: "x" }])
     assert.equal(readDocument(document).request, document);
+});
+
+test("every member of the service's answers is one of an answer", async () => {
+  const { schemas } = JSON.parse(
+    await readFile(new URL("../../../api/openapi.json", import.meta.url), "utf8"),
+  ).components;
+  const [answer, request] = ["PlanAnswer", "PlanRequest"].map((name) =>
+    Object.keys(schemas[name].properties),
+  );
+  const both = ["metadata", "unavoidable"]; // the metadata of an answer are those of its request
+  for (const name of answer) {
+    assert.equal(request.includes(name), both.includes(name), name);
+    assert.equal(Object.hasOwn(OF_ANSWERS, name), name !== "metadata", name);
+  }
+});
+
+test("dependencies, and pairs without slack, belong to the answer", () => {
+  for (const found of [[], null]) {
+    const answer = { ...ANSWER, dependencies: found, tight: found };
+    assert.deepEqual(readDocument(planFile(REQUEST, answer)), { request: REQUEST, answer });
+  }
 });
 
 test("a plan file is split into its request and answer", () => {
