@@ -1,6 +1,7 @@
 // A fleet that keeps running: rounds of playing a plan, advancing its request to the end of the round, and planning the
 // next one meanwhile (see docs/fleet_loop.md). Robots that have arrived go to their start and back. A robot that is held or
-// released ends the round at once. No DOM; the service is passed in. Seconds.
+// released ends the round as soon as the next one may be planned; if it is not by then, nothing moves until it is. No DOM;
+// the service is passed in. Seconds.
 
 import { goalsOf, lastGoalOf } from "./goals.js";
 import { robotsOf } from "./listed.js";
@@ -10,6 +11,8 @@ const SERVICE = 2; // seconds at the start before a robot goes back
 const BUDGET_SHARE = 0.9; // of a round
 const LEAST_BUDGET_MS = 200;
 const SMOOTHED = 5; // rounds whose goals count for the throughput
+const LEAST_LEAD = 0.2; // of the wall clock, from a hold to the end of the round
+const LEAD_SHARE = 1.5; // of the time that recent rounds took to plan, in addition
 const NO_LISTENER = { progress() {}, incumbent() {}, waiting() {} };
 
 /** The request with the options of a running fleet: it is planned in time, and only what must change. */
@@ -74,6 +77,7 @@ export class FleetRun {
   #planning = new AbortController(); // of the next round
   #isProceeding = false;
   #plays = true; // after that
+  #isCut = false; // the round ends by a hold
 
   running = false;
   period = 2; // seconds of a round that is not ended by a hold
@@ -124,23 +128,31 @@ export class FleetRun {
     this.#signals.emit("change");
   }
 
-  /** Holds a robot for so many seconds from now on; 0 releases it. */
+  /** Holds a robot for so many seconds; 0 releases it. From now on, or a moment later while the fleet is played. */
   hold(robot, duration) {
     const { player } = this.#session;
-    if (duration > 0) this.#holds.set(robot, player.time + duration);
+    const begin = player.time + (this.running && player.playing ? this.#lead : 0);
+    if (duration > 0) this.#holds.set(robot, begin + duration);
     else this.#holds.delete(robot);
     this.#signals.emit("change");
     if (!this.running) return;
-    const plays = this.#isProceeding ? this.#plays : player.playing;
-    this.#session.pause(); // until there is the plan of a round that begins now
     this.#turn += 1;
-    this.#planNext(player.time);
-    this.#proceed(plays);
+    this.#planNext(begin);
+    this.#isCut = player.playing;
+    if (player.playing) this.#isProceeding = false;
+    else this.#proceed(this.#isProceeding && this.#plays);
+  }
+
+  /** How long the fleet is played until a hold begins, as its plan takes some time. */
+  get #lead() {
+    const latency = Math.max(0, ...this.rounds.slice(-SMOOTHED).map((round) => round.latency)) / 1000;
+    return (LEAST_LEAD + LEAD_SHARE * latency) * this.#session.player.speed;
   }
 
   /** Plans the next round while this one is played. */
   #begin(request, answer, plays = true) {
     this.#present = { request, answer };
+    this.#isCut = false;
     this.#planNext(this.period);
     this.#signals.emit("change");
     if (plays) this.#session.play();
@@ -176,13 +188,20 @@ export class FleetRun {
   /** Ends the round when it has been played. */
   #watch() {
     const { time, duration } = this.#session.player;
-    if (this.running && !this.#isProceeding && time >= Math.min(this.#end, duration)) this.#proceed(true);
+    const end = Math.min(this.#end, duration);
+    if (!this.running || this.#isProceeding || time < end) return;
+    this.#isProceeding = true;
+    if (this.#isCut) {
+      this.#session.seek(end);
+      this.#session.pause();
+    }
+    this.#proceed(true);
   }
 
-  /** Who pauses while the next round is late wants that one paused, too. */
+  /** Who pauses while the next round is late wants that one paused, too; a pause before a hold is not theirs. */
   #onPlayback() {
     const { playing, time, duration } = this.#session.player;
-    if (this.#isProceeding && !playing && time < duration) this.#plays = false;
+    if (this.#isProceeding && !this.#isCut && !playing && time < duration) this.#plays = false;
   }
 
   /** Goes on with the next round as soon as it is planned. */

@@ -73,7 +73,7 @@ test("throughput is of the last few rounds", () => {
 });
 
 /** A session that plays the plan, and a run with a service that records what it is asked. */
-function begin(service = {}) {
+function begin(service = {}, now = () => 0) {
   const frames = [];
   const session = new Session({}, (callback) => frames.push(callback));
   session.open({ name: "one", example: null, text: "", request: REQUEST }, ANSWER);
@@ -88,7 +88,7 @@ function begin(service = {}) {
       plan: async () => ({ ...ANSWER, status: "solved" }),
       ...service,
     },
-    () => 0,
+    now,
   );
   let clock = 0;
   /** Lets so many seconds pass, frame by frame, with the answers that arrive. */
@@ -119,25 +119,55 @@ test("rounds follow each other while the plan is played, and the selection stays
   assert.deepEqual([run.rounds.length, session.player.playing], [2, false]);
 });
 
-test("a held robot stops at once, and is held for its time, round by round", async () => {
+test("a held robot stops a moment later, while the fleet goes on, and is held for its time, round by round", async () => {
   const { session, run, asked, pass } = begin();
   run.start(2);
   await pass(1.5);
-  const { time } = session.player;
-  assert.ok(time > 0 && time < 2, "within the round");
+  const end = session.player.time + 0.2; // as rounds take no time to plan
+  assert.ok(end > 0.2 && end < 2, "within the round");
   run.hold("a", 3);
+  assert.equal(session.player.playing, true);
   await pass(6);
   const sent = asked.map(({ at, commit, holds }) => ({ at, commit, holds }));
   assert.deepEqual(sent.slice(0, 4), [
     { at: 2, commit: 2, holds: [] },
-    { at: time, commit: 2, holds: [{ robot: "a", until: 3 }] },
+    { at: end, commit: 2, holds: [{ robot: "a", until: 3 }] },
     { at: 2, commit: 2, holds: [{ robot: "a", until: 1 }] },
     { at: 2, commit: 2, holds: [] },
   ]);
   assert.deepEqual(
     run.rounds.slice(0, 2).map(({ length }) => length),
-    [time, 2],
+    [end, 2],
   );
+});
+
+test("a fleet is played until the hold of a robot begins, which is later if planning takes long", async () => {
+  let clock = 0;
+  const service = {
+    plan: async () => {
+      clock += 400; // milliseconds
+      return { ...ANSWER, status: "solved" };
+    },
+  };
+  const { session, run, asked, pass } = begin(service, () => clock);
+  run.start(2);
+  await pass(3.5);
+  const before = session.player.time;
+  session.player.speed = 2;
+  run.hold("a", 3);
+  const end = before + 2 * (0.2 + 1.5 * 0.4);
+  assert.equal(asked.at(-1).at, end);
+  const shown = [];
+  session.on("time playback", () => shown.push([session.player.time, session.player.playing]));
+  await pass(0.5);
+  assert.deepEqual(shown.at(-1), [before + 1, true], "it goes on meanwhile");
+  await pass(0.5);
+  assert.ok(
+    shown.some(([time]) => time === end),
+    "as far as the hold, and no further",
+  );
+  assert.ok(shown.every(([time]) => time <= end));
+  assert.equal(session.player.playing, true);
 });
 
 test("the plan that a hold replaces is aborted, and its answer dropped", async () => {
