@@ -14,15 +14,52 @@ const NOT_COMPUTED = {
 };
 const WORKER = new URL("./clearance_worker.js", import.meta.url);
 
+/**
+ * The motions of robots by id, in their order.
+ * @returns {Map<string, Motion>}
+ */
+export function motionsOf(robots, tracks) {
+  return new Map(
+    robots.map((robot) => {
+      const { actions, radii } = tracks.get(robot.id);
+      return [robot.id, motionOf(robot, actions, radii)];
+    }),
+  );
+}
+
+/** The two robots that are nearest to each other. */
+export class NearestPair {
+  #ids;
+  #sweep;
+  /** @type {{time: number | null, pair: {ids: string[], gap: number} | null}} */
+  #last = { time: null, pair: null };
+
+  /** `motions`: see motionsOf. */
+  constructor(motions) {
+    this.#ids = [...motions.keys()];
+    this.#sweep = this.#ids.length < 2 ? null : new ClearanceSweep([...motions.values()]);
+  }
+
+  /** At a time: {ids, gap}, or null if there are no two. */
+  at(time) {
+    if (this.#sweep === null) return null;
+    if (time !== this.#last.time) {
+      const { first, second, gap } = this.#sweep.nearestAt(time);
+      this.#last = { time, pair: { ids: idsOf(this.#ids, first, second), gap } };
+    }
+    return this.#last.pair;
+  }
+}
+
+const idsOf = (ids, first, second) => [Math.min(first, second), Math.max(first, second)].map((at) => ids[at]);
+
 export class FleetMotion {
   #session;
   #signals = new Signals();
   /** @type {Map<string, Motion> | null} */
   #byId = null;
-  /** @type {ClearanceSweep | null} */
-  #sweep = null;
-  /** @type {{time: number | null, pair: {ids: string[], gap: number} | null}} */
-  #nearest = { time: null, pair: null };
+  /** @type {NearestPair | null} */
+  #nearest = null;
 
   /** The smallest gap over time, see clearanceOf; null without an answer, while that is outdated, and until it is computed. */
   curve = /** @type {any} */ (null);
@@ -32,8 +69,7 @@ export class FleetMotion {
     this.#session = session;
     session.on("answer", () => {
       const { answer } = session;
-      this.#byId = this.#sweep = this.curve = null;
-      this.#nearest = { time: null, pair: null };
+      this.#byId = this.#nearest = this.curve = null;
       this.#signals.emit("curve");
       if (answer !== null && !session.outdated) this.#compute(compute);
     });
@@ -59,25 +95,14 @@ export class FleetMotion {
 
   /** The motions of all robots by id, in the order of the scene. */
   get byId() {
-    const { scene, tracks } = this.#session;
-    this.#byId ??= new Map(
-      scene.robots.map((robot) => {
-        const { actions, radii } = tracks.get(robot.id);
-        return [robot.id, motionOf(robot, actions, radii)];
-      }),
-    );
+    this.#byId ??= motionsOf(this.#session.scene.robots, this.#session.tracks);
     return this.#byId;
   }
 
   /** The two robots that are nearest to each other at a time: {ids, gap}, or null if there are no two. */
   nearestAt(time) {
-    if (this.byId.size < 2) return null;
-    if (time !== this.#nearest.time) {
-      this.#sweep ??= new ClearanceSweep([...this.byId.values()]);
-      const { first, second, gap } = this.#sweep.nearestAt(time);
-      this.#nearest = { time, pair: { ids: this.#idsOf(first, second), gap } };
-    }
-    return this.#nearest.pair;
+    this.#nearest ??= new NearestPair(this.byId);
+    return this.#nearest.at(time);
   }
 
   /** The smallest gap of the plan but for pairs at rest: {t, gap, ids}, or null. */
@@ -89,12 +114,8 @@ export class FleetMotion {
   /** When two are nearest in a window of the curve: {t, gap, ids}. */
   momentOf(window) {
     const { t, gap, first, second } = this.curve;
-    return { t: t[window], gap: gap[window], ids: this.#idsOf(first[window], second[window]) };
-  }
-
-  #idsOf(first, second) {
-    const { robots } = this.#session.scene;
-    return [Math.min(first, second), Math.max(first, second)].map((at) => robots[at].id);
+    const ids = this.#session.scene.robots.map(({ id }) => id);
+    return { t: t[window], gap: gap[window], ids: idsOf(ids, first[window], second[window]) };
   }
 }
 

@@ -30,14 +30,15 @@ export function watchProblem(session, stage, tabs, choice, loadOptions) {
     if (errors().some(isAboutOptions)) loadOptions().then(refresh);
   });
 
-  stage.addOverlay((context, view) => {
+  const markErrors = (context, view) => {
     for (const { pointer = "" } of errors()) {
       const disk = diskOf(session.request, session.scene, pointer);
       const row = mapRowOf(pointer);
       if (row !== null && session.scene.grid) markRow(context, view, session.scene.grid, row);
       if (disk) markWrong(context, view, disk, disk.radius);
     }
-  });
+  };
+  stage.addOverlay(markErrors, { shared: true });
 
   const lead = async (pointer) => {
     if (isAboutOptions({ pointer })) await loadOptions();

@@ -54,8 +54,8 @@ export class Painter {
 
   /**
    * Paints the moment `time`; `marked` are the ids to bring out; `moving`: whether the camera is being moved. `overlays` are functions (context, view)
-   * where view has camera, viewport, ratio, time, marked, moving, theme, scale (pixels per metre) and screen(point),
-   * all in CSS pixels.
+   * where view has camera, viewport, ratio, time, tracks, marked, moving, theme, scale (pixels per metre) and
+   * screen(point), all in CSS pixels.
    */
   paint({ camera, viewport, ratio, time, marked, moving, overlays }) {
     if (!this.#scene || viewport.width === 0) return;
@@ -80,6 +80,7 @@ export class Painter {
       viewport,
       ratio,
       time,
+      tracks: this.#tracks,
       marked,
       moving,
       theme: this.#theme,

@@ -7,7 +7,7 @@ const LEAST = 8; // pixels between points
 const DOT = 2; // pixels
 
 export function showLattice(session, stage) {
-  stage.addOverlay((context, { camera, viewport, scale, screen, theme }) => {
+  const paint = (context, { camera, viewport, scale, screen, theme }) => {
     const { grid } = session.scene;
     if (!stage.look.lattice || grid === null) return;
     const spacing = spacingOf(grid, session.request, session.answer);
@@ -20,5 +20,6 @@ export function showLattice(session, stage) {
       const { x, y } = screen(point);
       context.fillRect(x - DOT / 2, y - DOT / 2, DOT, DOT);
     }
-  });
+  };
+  stage.addOverlay(paint, { shared: true });
 }

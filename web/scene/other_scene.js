@@ -53,6 +53,7 @@ export class OtherScene {
       const [scene, tracks, , look] = shown;
       this.#painter.show(scene, tracks, theme, look);
     }
-    this.#painter.paint({ camera, viewport, ratio, time, marked, moving, overlays: [] });
+    const overlays = this.#stage.sharedOverlays;
+    this.#painter.paint({ camera, viewport, ratio, time, marked, moving, overlays });
   }
 }

@@ -1,6 +1,8 @@
 // Overlays on the scene: blocking robots, violations of a checked plan, the closest pair.
 
 import { violationsAt } from "../model/checks.js";
+import { motionsOf, NearestPair } from "../model/fleet_motion.js";
+import { robotPoseAt, robotRadiusAt } from "../model/scene.js";
 import { byId } from "../ui/dom.js";
 import { metres } from "../ui/format.js";
 import { drawPath, drawTag, markWrong, ring } from "./marks.js";
@@ -8,24 +10,26 @@ import { drawPath, drawTag, markWrong, ring } from "./marks.js";
 const TAG_FROM = 56; // pixels between two disks: below, the tag is beside the line, not on it
 const ASIDE = 22; // pixels
 
+/** Where a robot is in the plan of a view, and its radius, pixels: {x, y, radius}; null if there is no such robot. */
+function diskIn(session, { tracks, time, screen, scale }, id) {
+  const robot = session.robot(id);
+  const track = tracks.get(id);
+  if (robot === null || track === undefined) return null;
+  return { ...screen(robotPoseAt(robot, track, time)), radius: robotRadiusAt(robot, track, time) * scale };
+}
+
 export function showBlockers(session, stage) {
-  stage.addOverlay((context, view) => {
-    const blocked = session.tracks.get(session.selected)?.unplanned;
-    if (!blocked) return;
-    const { theme, screen, scale } = view;
-    const from = screen(session.poseOf(session.selected, view.time));
-    for (const id of blocked.blocked_by ?? []) {
-      const robot = session.robot(id);
-      if (robot === null) continue;
-      const centre = screen(session.poseOf(id, view.time));
-      drawPath(context, [from, centre], theme.danger, { width: 1.5, alpha: 0.9, dashes: [6, 4] });
-      ring(context, centre, session.radiusOf(id, view.time) * scale + 4, theme.danger, {
-        width: 2,
-        alpha: 1,
-        dashes: [6, 3],
-      });
+  const paint = (context, view) => {
+    const { theme, tracks } = view;
+    const from = diskIn(session, view, session.selected);
+    for (const id of tracks.get(session.selected)?.unplanned?.blocked_by ?? []) {
+      const disk = diskIn(session, view, id);
+      if (disk === null) continue;
+      drawPath(context, [from, disk], theme.danger, { width: 1.5, alpha: 0.9, dashes: [6, 4] });
+      ring(context, disk, disk.radius + 4, theme.danger, { width: 2, alpha: 1, dashes: [6, 3] });
     }
-  });
+  };
+  stage.addOverlay(paint, { shared: true });
 }
 
 /** `fleet`: see FleetMotion. */
@@ -49,6 +53,7 @@ export class ClosestOverlay {
   #button = byId("show-closest");
   #on = false;
   #peeking = false;
+  #others = new WeakMap(); // the tracks of another plan -> NearestPair
 
   /** `fleet`: see FleetMotion. */
   constructor(session, stage, fleet) {
@@ -56,7 +61,7 @@ export class ClosestOverlay {
     this.#stage = stage;
     this.#fleet = fleet;
     this.#button.addEventListener("click", () => this.toggle());
-    stage.addOverlay((context, view) => this.#paint(context, view));
+    stage.addOverlay((context, view) => this.#paint(context, view), { shared: true });
   }
 
   toggle() {
@@ -74,13 +79,17 @@ export class ClosestOverlay {
 
   #paint(context, view) {
     if (!this.#on && !this.#peeking) return;
-    const pair = this.#fleet.nearestAt(view.time);
-    if (pair === null) return;
-    const disks = pair.ids.map((id) => ({
-      ...view.screen(this.#session.poseOf(id, view.time)),
-      radius: this.#session.radiusOf(id, view.time) * view.scale,
-    }));
-    paintGap(context, view.theme, disks, pair.gap);
+    const pair = this.#nearestIn(view);
+    const disks = pair?.ids.map((id) => diskIn(this.#session, view, id)) ?? [null];
+    if (!disks.includes(null)) paintGap(context, view.theme, disks, pair.gap);
+  }
+
+  #nearestIn({ tracks, time }) {
+    if (tracks === this.#session.tracks) return this.#fleet.nearestAt(time);
+    if (!this.#others.has(tracks)) {
+      this.#others.set(tracks, new NearestPair(motionsOf(this.#session.scene.robots, tracks)));
+    }
+    return this.#others.get(tracks).at(time);
   }
 }
 

@@ -34,8 +34,9 @@ export class Stage {
   #fitted = true; // the camera fits the viewport until it is moved
   #look = { colours: "robot", paths: "whole", heat: "none", lattice: false };
   #overlays = [];
+  #shared = []; // those that other scenes show, too
   #ownTool = {};
-  #lentTool = null;
+  #lentTool = /** @type {any} */ (null);
   #baseTool = {};
   #pressed = {}; // the tool that handles the press
   #scheduled = false;
@@ -59,10 +60,20 @@ export class Stage {
     byId("zoom-out").addEventListener("click", () => this.zoomOut());
   }
 
-  /** `paint(context, view)` paints on top of each frame, in CSS pixels; see Painter for `view`. */
-  addOverlay(paint) {
+  /**
+   * `paint(context, view)` paints on top of each frame, in CSS pixels; see Painter for `view`. `shared`: also on the scene of
+   * another plan, whose tracks are those of the view then.
+   */
+  addOverlay(paint, { shared = false } = {}) {
     this.#overlays.push(paint);
+    if (shared) this.#shared.push(paint);
     this.redraw();
+  }
+
+  /** What is painted on top of the scene of another plan, see addOverlay; with the tool that is lent. */
+  get sharedOverlays() {
+    const tool = this.#lentTool;
+    return tool?.paint ? [...this.#shared, tool.paint.bind(tool)] : this.#shared;
   }
 
   /** Sets the tool for presses that the current one leaves. */

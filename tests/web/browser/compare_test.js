@@ -139,6 +139,26 @@ test("two plans side by side share the view, and robots are selected in either",
   });
 });
 
+test("the closest pair is marked in both scenes", async () => {
+  await onPage(async (page) => {
+    await dropSecond(page);
+    await seek(page, 0);
+    await hasTime(page, 0);
+    const { ids } = await hook(page, "closest");
+    const { x, y, radius } = await page.evaluate((id) => window.fleetplan.screenOf(id), ids[0]);
+    const rim = [{ x, y: y + radius + 1.5 }];
+    const coloursOfBoth = async () => [
+      ...(await coloursAt(page, rim)),
+      ...(await coloursAt(page, rim, "other-scene")),
+    ];
+    const [first, other] = await coloursOfBoth();
+    await page.keyboard.press("c");
+    const [marked, otherMarked] = await coloursOfBoth();
+    assert.deepEqual([other, otherMarked], [first, marked]);
+    assert.notEqual(marked, first);
+  });
+});
+
 test("the other plan is drawn as rings over the first instead", async () => {
   await onPage(async (page) => {
     const { answer } = await dropSecond(page);
