@@ -2,6 +2,7 @@
 // when they are asked for.
 
 import { planFile } from "../model/plan_file.js";
+import { ScenePicture } from "../scene/scene_picture.js";
 import { byId, setText } from "../ui/dom.js";
 import { saveBlob } from "./downloads.js";
 
@@ -12,6 +13,7 @@ const FAILED = "This failed. Is the service reachable and the browser up to date
 export function watchSharing(session, stage, load, stem) {
   const [picture, animation, page] = ["save-picture", "save-animation", "save-page"].map(byId);
   const note = byId("save-note");
+  const scene = new ScenePicture(stage);
   const tell = (text) => {
     note.hidden = text === "";
     setText(note, text);
@@ -23,7 +25,7 @@ export function watchSharing(session, stage, load, stem) {
     picture.disabled = session.request === null;
     for (const button of [animation, page]) button.disabled = !session.hasPlan;
   });
-  picture.addEventListener("click", () => savePicture(stage, stem()));
+  picture.addEventListener("click", () => savePicture(scene, stem()));
   page.addEventListener("click", async () => {
     const made = await load.page().then(
       (loaded) => pageOf(loaded, session),
@@ -43,7 +45,7 @@ export function watchSharing(session, stage, load, stem) {
     const progress = (share) => (label.textContent = `Recording, ${Math.round(share * 100)} %: stop `);
     const recorded = await load.animation().then(
       ({ canRecord, recordPlan }) =>
-        canRecord() ? recordPlan(session, stage, recording?.signal, progress) : undefined,
+        canRecord() ? recordPlan(session, scene, recording?.signal, progress) : undefined,
       () => undefined,
     );
     recording = null;
@@ -58,8 +60,8 @@ function pageOf({ sharedPage }, { name, request, answer }) {
 }
 
 /** Saves the scene as it is seen, with at least twice the pixels of the page. */
-function savePicture(stage, stem) {
-  stage.paint(Math.max(FINE, window.devicePixelRatio || 1)); // with all pending changes
-  stage.canvas.toBlob((blob) => saveBlob(`${stem}.png`, blob), "image/png");
-  stage.paint();
+function savePicture(scene, stem) {
+  const canvas = scene.paint(Math.max(FINE, window.devicePixelRatio || 1)); // with all pending changes
+  canvas.toBlob((blob) => saveBlob(`${stem}.png`, blob), "image/png");
+  scene.paint();
 }

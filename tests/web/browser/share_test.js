@@ -7,7 +7,7 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { fileURLToPath, pathToFileURL } from "node:url";
 
-import { choose, newContext, pressPlan } from "../support/browser.js";
+import { choose, newContext, pause, pressPlan } from "../support/browser.js";
 import { png } from "../support/map_files.js";
 import { coloursAt, countColour, hook, pagesFor, paste } from "../support/on_page.js";
 
@@ -16,8 +16,10 @@ const onSources = pagesFor(["--web-root", fileURLToPath(new URL("../../../web", 
 
 /** The file that pressing a button of the Save menu saves: {name, path}. */
 async function saved(page, button) {
-  await page.focus("#save-menu summary");
-  await page.keyboard.press("Enter");
+  if (!(await page.isVisible(button))) {
+    await page.focus("#save-menu summary");
+    await page.keyboard.press("Enter");
+  }
   const [download] = await Promise.all([
     page.waitForEvent("download"),
     (async () => {
@@ -59,8 +61,76 @@ const SHORT = {
   ],
 };
 
-test("an animation plays the whole plan", async () => {
+/** On another page, without the policy of content: what `read(video)` resolves to, of a file of a video. */
+async function readVideo(page, path, read) {
+  const bytes = await readFile(path);
+  assert.equal(bytes.readUInt32BE(0), 0x1a45dfa3, "EBML");
+  const other = await page.context().newPage();
+  const video = await other.evaluateHandle((base64) => {
+    const made = document.createElement("video");
+    made.src = `data:video/webm;base64,${base64}`;
+    made.muted = true;
+    return made;
+  }, bytes.toString("base64"));
+  return video.evaluate(read);
+}
+
+/** On the page: seeks through a video; its duration and size, and how many of three pictures differ. */
+async function lookThrough(video) {
+  await new Promise((done) => video.addEventListener("loadedmetadata", done));
+  const { duration, videoWidth, videoHeight } = video;
+  const context = new OffscreenCanvas(videoWidth, videoHeight).getContext("2d", { willReadFrequently: true });
+  const pictures = [];
+  for (const share of [0, 0.5, 0.99]) {
+    video.currentTime = share * duration;
+    await new Promise((done) => video.addEventListener("seeked", done, { once: true }));
+    context.drawImage(video, 0, 0);
+    const { data } = context.getImageData(0, 0, videoWidth, videoHeight);
+    pictures.push(new Uint32Array(data.buffer).reduce((sum, pixel) => (sum * 31 + pixel) >>> 0, 0));
+  }
+  return { duration, videoWidth, videoHeight, different: new Set(pictures).size };
+}
+
+test("an animation is encoded picture by picture, with its duration, and the time before is shown again", async () => {
   await onBundle(async (page) => {
+    await paste(page, SHORT);
+    const { makespan } = await pressPlan(page);
+    await pause(page);
+    const time = await hook(page, "time");
+    const { name, path } = await saved(page, "#save-animation");
+    assert.match(name, /\.webm$/);
+    assert.equal(await hook(page, "time"), time);
+    const { duration, videoWidth, different } = await readVideo(page, path, lookThrough);
+    assert.ok(Math.abs(duration - (makespan + 0.6)) < 0.05, `${duration} s of ${makespan} s and a rest`);
+    assert.equal(videoWidth, await page.evaluate(() => document.getElementById("scene").width));
+    assert.equal(different, 3, "the robot moves");
+    assert.ok((await page.innerText("#save-animation")).startsWith("Animation"));
+  });
+});
+
+test("pictures and animations show both plans that are compared", async () => {
+  await onBundle(async (page) => {
+    await paste(page, SHORT);
+    await pressPlan(page);
+    await pressPlan(page);
+    await page.click("#tab-analyse");
+    await page.getByText("Compare plans", { exact: true }).click();
+    await page.getByLabel("Compare the plan with").selectOption("before 0");
+    const { width, height } = await page.evaluate(() => {
+      const { clientWidth, clientHeight } = document.getElementById("scene-frame");
+      return { width: clientWidth, height: clientHeight };
+    });
+    const picture = await readFile((await saved(page, "#save-picture")).path);
+    assert.deepEqual([picture.readUInt32BE(16), picture.readUInt32BE(20)], [2 * width, 2 * height]);
+    const { path } = await saved(page, "#save-animation");
+    const { videoWidth, videoHeight } = await readVideo(page, path, lookThrough);
+    assert.deepEqual([videoWidth, videoHeight], [width, height]);
+  });
+});
+
+test("without an encoder of pictures, an animation is recorded while the whole plan is played", async () => {
+  await onBundle(async (page) => {
+    await page.evaluate(() => delete window.VideoEncoder);
     await paste(page, SHORT);
     const { makespan } = await pressPlan(page);
     await page.evaluate(() => {
@@ -73,22 +143,14 @@ test("an animation plays the whole plan", async () => {
         };
       }
     });
-    const { name, path } = await saved(page, "#save-animation");
+    const { path } = await saved(page, "#save-animation");
     assert.deepEqual(await page.evaluate(() => window.recorded), [0, makespan]);
-    assert.match(name, /\.webm$/);
-    const bytes = await readFile(path);
-    assert.equal(bytes.readUInt32BE(0), 0x1a45dfa3, "EBML");
-    const other = await page.context().newPage(); // without the page's policy of content
-    const lasts = await other.evaluate(async (base64) => {
-      const video = document.createElement("video");
-      video.src = `data:video/webm;base64,${base64}`;
-      video.muted = true;
+    const lasts = await readVideo(page, path, async (video) => {
       await video.play();
       await new Promise((done) => video.addEventListener("ended", done));
       return video.currentTime;
-    }, bytes.toString("base64"));
+    });
     assert.ok(lasts > 0, "it plays, with as many frames as the machine had time for");
-    assert.ok((await page.innerText("#save-animation")).startsWith("Animation"));
   });
 });
 
