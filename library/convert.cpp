@@ -20,6 +20,7 @@ static_assert(same(Action::Type::wait, core::Action::Type::wait));
 static_assert(same(Zone::Type::one_way, core::Zone::Type::one_way));
 static_assert(same(Options::Mode::anytime, core::PlanOptions::Mode::anytime));
 static_assert(same(Options::Objective::makespan, core::PlanOptions::Objective::makespan));
+static_assert(same(Options::Objective::tardiness, core::PlanOptions::Objective::tardiness));
 static_assert(same(Options::Priority::random, core::PlanOptions::Priority::random));
 static_assert(same(Options::Reordering::none, core::PlanOptions::Reordering::none));
 static_assert(same(Options::Replan::where_needed, core::PlanOptions::Replan::where_needed));
@@ -76,6 +77,7 @@ core::Robot robot_of(const Robot& robot, const Frame& frame) {
   made.start = frame.to_core(robot.start);
   made.may_reverse = robot.may_reverse;
   made.vicinity = robot.vicinity;
+  made.weight = robot.weight;
   for (const Goal& goal : robot.goals) {
     core::Goal& each = made.via.emplace_back();
     each.position = frame.to_core(goal.x, goal.y);
@@ -83,6 +85,7 @@ core::Robot robot_of(const Robot& robot, const Frame& frame) {
     each.service = goal.service;
     each.not_before = goal.not_before;
     each.radius_after = goal.radius_after;
+    each.due = goal.due;
   }
   if (made.via.empty()) return made;
   made.goal = made.via.back();

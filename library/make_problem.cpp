@@ -19,6 +19,8 @@ namespace fleetplan::library {
 namespace {
 
 constexpr Range kHalfAngle{kLeastHalfAngle, std::numbers::pi, " rad"};
+constexpr Range kDue{-kLongestTime, kLongestTime, " s"};
+constexpr Range kWeight{kLeastWeight, kMostWeight, ""};
 constexpr Range kHorizon{kShortestHorizon, kLongestTime, " s"};
 
 void check_position(double x, double y, const std::string& place, FaultList& faults) {
@@ -32,6 +34,11 @@ void check_goal(const Goal& goal, const std::string& place, FaultList& faults) {
   faults.check(goal.service, kDuration, place + ".service");
   faults.check(goal.not_before, kDuration, place + ".not_before");
   if (goal.radius_after) faults.check(*goal.radius_after, kLength, place + ".radius_after");
+  if (!goal.due) return;
+  faults.check(*goal.due, kDue, place + ".due");
+  if (goal.not_before > 0.0 && *goal.due < goal.not_before) {
+    faults.add(place + ".due", "The goal is due before its not_before.");
+  }
 }
 
 void check_robot(const Robot& robot, const std::string& place, FaultList& faults) {
@@ -39,6 +46,7 @@ void check_robot(const Robot& robot, const std::string& place, FaultList& faults
   faults.check(robot.linear_speed, kLinearSpeed, place + ".linear_speed");
   faults.check(robot.angular_speed, kAngularSpeed, place + ".angular_speed");
   faults.check(robot.vicinity, kLengthOrZero, place + ".vicinity");
+  faults.check(robot.weight, kWeight, place + ".weight");
   check_position(robot.start.x, robot.start.y, place + ".start", faults);
   faults.check(robot.start.theta, kAngle, place + ".start.theta");
   for (std::size_t k = 0; k < robot.goals.size(); ++k) {

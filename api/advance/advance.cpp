@@ -71,6 +71,7 @@ GoalsLeft goals_left(const core::Robot& robot, const Execution& execution, doubl
   for (std::size_t k = left.visited; k < robot.goal_count(); ++k) {
     core::Goal goal = robot.goal_at(k);
     goal.not_before = std::max(0.0, goal.not_before - at);
+    if (goal.due) goal.due = std::max(-kLongestTime, *goal.due - at);
     left.goals.push_back(goal);
   }
   left.radius = core::changes_radius(robot) ? core::radii_of(robot)[left.visited] : robot.radius;

@@ -238,6 +238,7 @@ void write_goal(JsonWriter& json, const core::Goal& goal, const GoalTexts& texts
   if (goal.theta) json.member("theta", *goal.theta);
   if (goal.service > 0.0) json.member("service", goal.service);
   if (goal.not_before > 0.0) json.member("not_before", goal.not_before);
+  if (goal.due) json.member("due", *goal.due);
   if (goal.radius_after) json.member("radius_after", *goal.radius_after);
   if (!texts.actions.empty() && goal.service > 0.0) json.key("actions").json(texts.actions);
   if (!texts.metadata.empty()) json.key("metadata").json(texts.metadata);

@@ -18,6 +18,7 @@
 #include "api/response/write_response.h"
 #include "core/commitments/unavoidable_collisions.h"
 #include "core/instance/instance.h"
+#include "core/model/objective_share.h"
 #include "core/model/plan.h"
 #include "core/replan/kept_plans.h"
 #include "core/runtime/stop_condition.h"
@@ -133,6 +134,16 @@ std::optional<PlanDependencies> answer_dependencies(const core::Plan& plan, cons
                            !request.problem.obstacles().empty(), stop);
 }
 
+/// Returns the value of the objective; none where the flowtime or the makespan of the answer has it.
+std::optional<double> objective_value(const core::Plan& plan, const PlanRequest& request) {
+  const std::vector<core::Robot>& robots = request.problem.robots();
+  const core::PlanOptions::Objective objective = request.options.objective;
+  const bool is_told =
+      objective == core::PlanOptions::Objective::tardiness ||
+      std::any_of(robots.begin(), robots.end(), [](const core::Robot& robot) { return robot.weight != 1.0; });
+  return is_told ? std::optional(core::objective_value(plan, robots, objective)) : std::nullopt;
+}
+
 std::vector<std::string> joined(std::vector<std::string> warnings, const std::vector<std::string>& more) {
   warnings.insert(warnings.end(), more.begin(), more.end());
   return warnings;
@@ -193,7 +204,8 @@ Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std:
                               .warnings = warnings,
                               .metadata = request.metadata,
                               .lattice_spacings = reported_spacings(request),
-                              .dependencies = dependencies ? &dependencies->made : nullptr};
+                              .dependencies = dependencies ? &dependencies->made : nullptr,
+                              .objective_value = objective_value(answered, request)};
   std::string text = write_response(verified, request_id, stages);
   return {.status = 200, .content_type = kJson, .body = std::move(text), .outcome = outcome};
 }

@@ -28,9 +28,10 @@ constexpr std::array<Word, 2> kModes{{
     {"first", "First solution"},
     {"anytime", "Improve until the budget ends"},
 }};
-constexpr std::array<Word, 2> kObjectives{{
+constexpr std::array<Word, 3> kObjectives{{
     {"flowtime", "Flowtime (sum)"},
     {"makespan", "Makespan (maximum)"},
+    {"tardiness", "Tardiness (sum of delays)"},
 }};
 constexpr std::array<Word, 4> kPriorities{{
     {"shortest_first", "Shortest path first"},
@@ -78,7 +79,9 @@ constexpr std::array<OptionRow, 21> kTable{{
     {"mode", "Mode", "", one_of<&PlanOptions::mode>(kModes),
      "`first` returns the first solution; `anytime` uses the rest of the budget to improve the objective."},
     {"objective", "Objective", "", one_of<&PlanOptions::objective>(kObjectives),
-     "What `anytime` minimizes: the sum of the robots' costs or their maximum."},
+     "What `anytime` minimizes: the sum of the robots' costs, each times its `weight`; the greatest cost; or "
+     "the sum of how much later than `due` they arrive at goals, each times `weight`, and among equal ones "
+     "the first."},
     {"seed", "Seed", "", NaturalOption{kMostSeed, &PlanOptions::seed}, "Seed of all random choices."},
     {"priority", "Initial order", "", one_of<&PlanOptions::priority>(kPriorities),
      "The initial order in which robots are planned. Later robots give way to earlier ones."},

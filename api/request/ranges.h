@@ -22,10 +22,12 @@ inline constexpr Range kAngularAcceleration{kLeastAcceleration, kMostAcceleratio
 /// Of a profile of speed.
 inline constexpr Range kProfileSpeed{0.0, kMostAngularSpeed, "metres or radians per second"};
 inline constexpr Range kDuration{0.0, kLongestTime, "seconds"};
+inline constexpr Range kDue{-kLongestTime, kLongestTime, "seconds"};  // negative: the past
 inline constexpr Range kHorizon{kShortestHorizon, kLongestTime, "seconds"};
 inline constexpr Range kSlackInTime{1e-3, kLongestTime, "seconds"};  // slack of dependencies
 inline constexpr Range kAnyAngle{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max(),
                                  "radians"};
+inline constexpr Range kWeight{kLeastWeight, kMostWeight, ""};  // of robots and tasks
 inline constexpr Range kFraction{0.0, 1.0, ""};  // fraction of an action
 /// The greatest number of an action or a goal of a robot; far beyond any limit of a request.
 inline constexpr std::uint64_t kGreatestIndex = 1'000'000'000;

@@ -10,6 +10,7 @@
 #include "api/json/json_writer.h"
 #include "api/response/reply.h"
 #include "core/geometry/angle.h"
+#include "core/model/objective_share.h"
 
 namespace fleetplan::api {
 
@@ -161,6 +162,10 @@ void begin_visit_without_times(JsonWriter& json, std::size_t goal) {
   json.begin_object().member("goal", goal).key("t_arrive").json("null").key("t_leave").json("null");
 }
 
+void write_late_by(JsonWriter& json, const core::Goal& goal, double t_arrive) {
+  if (const auto late = core::late_by(goal, t_arrive)) json.member("late_by", *late);
+}
+
 /// Ends the entry of a goal with its actions and metadata, if it has any. `texts`: of the goals by their
 /// number, or none.
 void end_visit(JsonWriter& json, std::size_t goal, const std::vector<GoalTexts>& texts) {
@@ -184,17 +189,19 @@ void write_goals_put_off(JsonWriter& json, const core::PostponedGoals& goals, co
 
 /// Writes the visits of a plan, and those that it leaves at the horizon. `goes_on`: it puts other goals off,
 /// so that the service at its last one has an end.
-void write_planned_visits(JsonWriter& json, const core::RobotPlan& plan, bool goes_on,
-                          const std::vector<GoalTexts>& texts) {
+void write_planned_visits(JsonWriter& json, const core::RobotPlan& plan, const core::Robot& robot,
+                          bool goes_on, const std::vector<GoalTexts>& texts) {
   for (const core::Visit& visit : plan.visits) {
     json.begin_object().member("goal", visit.goal).member("t_arrive", visit.t_arrive);
     const bool stays = visit.t_leave == core::kForever;
     json.member("t_leave", stays && goes_on ? plan.cost : visit.t_leave);  // null at the last goal
+    write_late_by(json, robot.goal_at(visit.goal), visit.t_arrive);
     end_visit(json, visit.goal, texts);
   }
   for (const core::Visit& visit : plan.estimated_visits) {
     begin_visit_without_times(json, visit.goal);
     json.member("estimated_t_arrive", visit.t_arrive);  // null without a way
+    write_late_by(json, robot.goal_at(visit.goal), visit.t_arrive);
     end_visit(json, visit.goal, texts);
   }
 }
@@ -206,7 +213,10 @@ void write_visits(JsonWriter& json, const core::RobotPlan& plan, const VerifiedP
   const core::Leaving* leaving = verified.problem.leaving(plan.robot);
   const bool puts_off = leaving != nullptr && leaving->postponed;
   json.key("visits").begin_array();
-  if (leaving == nullptr || !leaving->rests_outside) write_planned_visits(json, plan, puts_off, texts);
+  const core::Robot& robot = verified.problem.robots()[plan.robot];
+  if (leaving == nullptr || !leaving->rests_outside) {
+    write_planned_visits(json, plan, robot, puts_off, texts);
+  }
   if (puts_off) write_goals_put_off(json, *leaving->postponed, verified, texts);
   json.end_array();
 }
@@ -305,6 +315,7 @@ void write_timings(JsonWriter& json, const Stages& stages) {
 void write_summary(JsonWriter& json, const VerifiedPlan& verified) {
   const core::Plan& plan = verified.plan;
   json.member("flowtime", plan.objectives.flowtime).member("makespan", plan.objectives.makespan);
+  if (verified.objective_value) json.member("objective_value", *verified.objective_value);
   json.key("lower_bound").begin_object();
   json.member("flowtime", plan.lower_bound.flowtime).member("makespan", plan.lower_bound.makespan);
   json.end_object();

@@ -44,6 +44,7 @@ struct VerifiedPlan {
   std::vector<double> lattice_spacings;  // by robot, metres; empty: neither asked for nor chosen
   /// The dependencies of the answer; null if they were not asked for, none if they were not made in time.
   const std::optional<core::Dependencies>* dependencies = nullptr;
+  std::optional<double> objective_value = {};  // none: it is the flowtime or the makespan
 };
 
 /// Returns the answer of POST /v1/plan. Writing ends with the timings, so that they include it.

@@ -20,7 +20,6 @@ namespace fleetplan::api {
 namespace {
 
 constexpr std::array<std::string_view, 5> kTaskMembers{"id", "goals", "robots", "due", "weight"};
-constexpr Range kWeight{0.001, 1000.0, ""};
 /// Weights that differ by less count the same where there are too few robots.
 constexpr double kSameWeight = 1e-6;
 

@@ -3,17 +3,34 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/model/objective_share.h"
+
 namespace fleetplan::core {
 
 Incumbent::Incumbent(const PlanState& state, std::vector<std::size_t> planned)
-    : planned_(std::move(planned)),
+    : instance_(state.instance()),
+      planned_(std::move(planned)),
       trajectories_(state.instance().size()),
+      shares_(state.instance().size(), 0.0),
       versions_(state.instance().size(), 0) {
   for (std::size_t robot = 0; robot < trajectories_.size(); ++robot) {
     if (!state.trajectory(robot)) continue;
     followers_.push_back(robot);
     trajectories_[robot] = *state.trajectory(robot);
+    shares_[robot] = share_of(robot);
   }
+}
+
+double Incumbent::share_of(std::size_t robot) const {
+  return core::share_of(instance_.robot(robot), instance_.options().objective, trajectories_[robot]);
+}
+
+double Incumbent::least_share(std::size_t robot, double cost) const {
+  return core::least_share(instance_.robot(robot), instance_.options().objective, cost);
+}
+
+double Incumbent::cost_with_share(std::size_t robot, double share) const {
+  return core::cost_with_share(instance_.robot(robot), instance_.options().objective, share);
 }
 
 std::size_t Incumbent::last_to_arrive() const {
@@ -23,6 +40,7 @@ std::size_t Incumbent::last_to_arrive() const {
 
 void Incumbent::replace(std::size_t robot, Trajectory trajectory) {
   trajectories_[robot] = std::move(trajectory);
+  shares_[robot] = share_of(robot);
   versions_[robot] = ++version_;
 }
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <vector>
 
+#include "core/instance/instance.h"
 #include "core/model/trajectory.h"
 #include "core/prioritized/plan_state.h"
 
@@ -16,7 +17,8 @@ namespace fleetplan::core {
 /// one.
 class Incumbent {
  public:
-  /// The trajectories in `state`; only those of the robots of `planned` may be replaced.
+  /// The trajectories in `state`, whose instance outlives this object; only those of the robots of `planned`
+  /// may be replaced.
   Incumbent(const PlanState& state, std::vector<std::size_t> planned);
 
   /// The number of robots, with and without a trajectory.
@@ -26,6 +28,11 @@ class Incumbent {
   const std::vector<std::size_t>& followers() const { return followers_; }
   const Trajectory& trajectory(std::size_t robot) const { return trajectories_[robot]; }
   double cost(std::size_t robot) const { return trajectories_[robot].cost; }
+  /// The robot's share in the objective, and a lower bound of it for all trajectories that cost this much.
+  double share(std::size_t robot) const { return shares_[robot]; }
+  double least_share(std::size_t robot, double cost) const;
+  /// The cost from which on no trajectory of the robot has a share below `share`, seconds.
+  double cost_with_share(std::size_t robot, double share) const;
   /// The robot of the highest cost; there is at least one.
   std::size_t last_to_arrive() const;
   double makespan() const { return cost(last_to_arrive()); }
@@ -36,9 +43,13 @@ class Incumbent {
   void replace(std::size_t robot, Trajectory trajectory);
 
  private:
+  double share_of(std::size_t robot) const;
+
+  const Instance& instance_;
   std::vector<std::size_t> planned_;
   std::vector<std::size_t> followers_;
   std::vector<Trajectory> trajectories_;  // by robot
+  std::vector<double> shares_;            // by robot
   std::int64_t version_ = 0;
   std::vector<std::int64_t> versions_;  // by robot
 };

@@ -6,7 +6,7 @@
 namespace fleetplan::core {
 namespace {
 
-/// A delay below this is rounding, seconds.
+/// A delay below this is rounding, weighted seconds.
 constexpr double kLeastDelay = 1e-9;
 /// The limits of a search that finds a cheaper path if any of the searches can.
 constexpr SearchLimits kProof{
@@ -19,7 +19,7 @@ constexpr std::int64_t kProofShare = 8;
 }  // namespace
 
 double Exhaustion::delay(std::size_t robot) const {
-  return std::max(0.0, incumbent_.cost(robot) - bounds_[robot]);
+  return std::max(0.0, incumbent_.share(robot) - incumbent_.least_share(robot, bounds_[robot]));
 }
 
 bool Exhaustion::may_gain(std::size_t robot) const {
@@ -50,7 +50,7 @@ std::optional<Exhaustion::Test> Exhaustion::next_test(std::int64_t expansions) {
     if (!may_gain(robot)) continue;
     is_testing_ = true;
     Test test{robot, incumbent_.version(robot), kProof};
-    test.limits.bound = incumbent_.cost(robot) - kLeastDelay;
+    test.limits.bound = incumbent_.cost_with_share(robot, incumbent_.share(robot) - kLeastDelay);
     test.limits.max_expansions = most;
     return test;
   }

@@ -37,7 +37,7 @@ class Exhaustion {
         for_makespan_(for_makespan),
         cheapest_(incumbent.robot_count()) {}
 
-  /// The delay of a robot, seconds: cost minus lower bound, >= 0.
+  /// The delay of a robot, weighted seconds: its share in the objective minus the lower bound of that, >= 0.
   double delay(std::size_t robot) const;
   /// Whether the objective is equal to its lower bound, or no delayed robot can become cheaper.
   bool nothing_left() const;

@@ -29,9 +29,10 @@ using BeforeRound = std::function<void(const LnsResult& so_far)>;
 /// 1. chooses a delayed robot, the neighbourhood, its size and the search effort by their recent success,
 /// 2. selects the robots of the neighbourhood (see neighbourhood.h),
 /// 3. plans them again (see plan_neighbourhood.h), and
-/// 4. accepts the change if the objective falls: the flowtime; or the makespan, or the flowtime without a
-///    longer makespan. The flowtime may also rise a little, which leads out of local optima (threshold
-///    accepting; Dueck and Scheuer, 1990). The best plan is kept (see incumbent.h).
+/// 4. accepts the change if the objective falls: the flowtime, or the tardiness; or the makespan, or the
+///    flowtime without a longer makespan (see objective_share.h). A sum may also rise a little, which leads
+///    out of local optima (threshold accepting; Dueck and Scheuer, 1990). The best plan is kept (see
+///    incumbent.h).
 ///
 /// Success is measured per expansion, not per second. The search ends when `stop` is met, after the options'
 /// max_iterations, or when nothing is left to try: when the objective is equal to its lower bound, or no

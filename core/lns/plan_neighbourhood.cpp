@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/model/objective_share.h"
+
 namespace fleetplan::core {
 namespace {
 
-/// A gain below this is rounding, seconds.
+/// A gain below this is rounding, weighted seconds.
 constexpr double kLeastGain = 1e-9;
 
 class NeighbourhoodPlanning {
@@ -15,6 +17,8 @@ class NeighbourhoodPlanning {
                         const TautPathBounds& bounds, const NeighbourhoodOptions& options,
                         const StopCondition& stop)
       : state_(state),
+        instance_(state.instance()),
+        objective_(instance_.options().objective),
         bounds_(bounds),
         options_(options),
         stop_(stop),
@@ -31,14 +35,20 @@ class NeighbourhoodPlanning {
   }
 
  private:
-  double cost(std::size_t robot) const { return state_.trajectory(robot)->cost; }
+  double share(std::size_t robot, const Trajectory& trajectory) const {
+    return share_of(instance_.robot(robot), objective_, trajectory);
+  }
+  double share(std::size_t robot) const { return share(robot, *state_.trajectory(robot)); }
+  double least_share(std::size_t robot) const {
+    return core::least_share(instance_.robot(robot), objective_, bounds_[robot]);
+  }
 
   bool plan_queue() {
     for (std::size_t k = 0; k < queue_.size(); ++k) {  // the queue grows
       const std::size_t robot = queue_[k];
       SearchResult result = search(k);
       if (!result.trajectory) return false;
-      const double gained = cost(robot) - result.trajectory->cost;
+      const double gained = share(robot) - share(robot, *result.trajectory);
       if (k == 0 || options_.gain == NeighbourhoodOptions::Gain::sum) change_.gain += gained;
       std::erase(unplanned_, robot);
       enqueue_conflicting(robot, *result.trajectory);
@@ -71,16 +81,20 @@ class NeighbourhoodPlanning {
 
   /// The least cost at which the robot at this position of the queue would make the change unacceptable.
   double cost_bound(std::size_t position) const {
-    const double now = cost(queue_[position]);
+    const std::size_t robot = queue_[position];
+    const double now = share(robot);
+    double most = now;
     if (position == 0) {  // the change is for its sake, so it has to gain itself
-      return now - std::max(kLeastGain, options_.min_gain_share * (now - bounds_[queue_[position]]));
+      most = now - std::max(kLeastGain, options_.min_gain_share * (now - least_share(robot)));
+    } else {
+      if (options_.gain == NeighbourhoodOptions::Gain::first) return kForever;
+      double possible_gain = 0.0;  // by the robots that follow in the queue
+      for (std::size_t k = position + 1; k < queue_.size(); ++k) {
+        possible_gain += std::max(0.0, share(queue_[k]) - least_share(queue_[k]));
+      }
+      most = now + change_.gain + possible_gain + options_.most_loss - kLeastGain;
     }
-    if (options_.gain == NeighbourhoodOptions::Gain::first) return kForever;
-    double possible_gain = 0.0;  // by the robots that follow in the queue
-    for (std::size_t k = position + 1; k < queue_.size(); ++k) {
-      possible_gain += std::max(0.0, cost(queue_[k]) - bounds_[queue_[k]]);
-    }
-    return now + change_.gain + possible_gain + options_.most_loss - kLeastGain;
+    return cost_with_share(instance_.robot(robot), objective_, most);
   }
 
   void enqueue_conflicting(std::size_t robot, const Trajectory& trajectory) {
@@ -99,6 +113,8 @@ class NeighbourhoodPlanning {
   }
 
   PlanState& state_;
+  const Instance& instance_;
+  const PlanOptions::Objective objective_;
   const TautPathBounds& bounds_;
   const NeighbourhoodOptions& options_;
   const StopCondition& stop_;

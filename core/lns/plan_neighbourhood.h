@@ -18,17 +18,17 @@ struct Change {
     Trajectory trajectory;
   };
   std::vector<Part> parts;
-  double gain = 0.0;  // seconds, see NeighbourhoodOptions::Gain
+  double gain = 0.0;  // weighted seconds, see NeighbourhoodOptions::Gain
 };
 
 /// Which changes of a neighbourhood are accepted, and the effort for them.
 struct NeighbourhoodOptions {
   enum class Gain : std::uint8_t {
-    sum,    // the sum of all costs has to fall
-    first,  // the cost of the first robot has to fall, whatever the others' become
+    sum,    // the sum of the shares in the objective (see share_of()) has to fall
+    first,  // the share of the first robot has to fall, whatever the others' become
   };
   Gain gain = Gain::sum;
-  double most_loss = 0.0;        // seconds, >= 0; by how much the sum may rise
+  double most_loss = 0.0;        // weighted seconds, >= 0; by how much the sum may rise
   double cost_limit = kForever;  // seconds; all costs have to be below it
   double min_gain_share = 0.0;   // [0, 1); share of the first robot's delay that it has to gain at least
   SearchLimits limits;           // limits of every search; the bound follows from the other members

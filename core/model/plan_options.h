@@ -8,7 +8,9 @@ namespace fleetplan::core {
 /// The options of the planner; the defaults equal those of the API.
 struct PlanOptions {
   enum class Mode { first, anytime };
-  enum class Objective { flowtime, makespan };
+  /// What is minimized: the sum of the robots' costs, each times its weight; the greatest cost; or the sum of
+  /// how much later than due they arrive at goals, each times the robot's weight, ties by the first.
+  enum class Objective { flowtime, makespan, tardiness };
   enum class Priority { shortest_first, longest_first, as_listed, random };
   enum class Reordering { raise_failed, random, none };
   enum class Replan { all, where_needed };

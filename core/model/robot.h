@@ -20,6 +20,8 @@ struct Goal {
   double not_before = 0.0;      // seconds, >= 0; the service begins at this time at the earliest
   /// Metres: the radius of the robot from the end of the service on; nullopt: as before.
   std::optional<double> radius_after = {};
+  /// Seconds: by when the robot should arrive, see PlanOptions::Objective; may be negative: the past.
+  std::optional<double> due = {};
 };
 
 /// A differential-drive robot: an open disk that waits, rotates in place or translates straight ahead (or
@@ -48,6 +50,7 @@ struct Robot {
   bool may_reverse = false;  // it may translate backwards
   double vicinity = 0.0;     // metres, >= 0, added to its radius against other robots only
   double goal_age = 0.0;     // seconds, >= 0, for which its next goal could have been served already
+  double weight = 1.0;       // > 0: how many times its cost and its tardiness count
   static constexpr double kNoLimit = std::numeric_limits<double>::infinity();
   double linear_acceleration = kNoLimit;   // metres per second squared, > 0
   double linear_deceleration = kNoLimit;   // metres per second squared, > 0

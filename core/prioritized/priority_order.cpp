@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "core/bounds/lower_bound.h"
@@ -27,7 +28,7 @@ void order_for_horizon(const std::vector<Robot>& all, PriorityOrder& order) {
   const auto end =
       std::stable_partition(order.begin(), order.end(), [&](auto i) { return !has_arrived(all[i]); });
   const auto oldest = std::min_element(order.begin(), end, [&](auto a, auto b) {
-    return std::pair(-all[a].goal_age, a) < std::pair(-all[b].goal_age, b);
+    return std::tuple(-all[a].goal_age, -all[a].weight, a) < std::tuple(-all[b].goal_age, -all[b].weight, b);
   });
   if (oldest != end && all[*oldest].goal_age > 0.0) std::rotate(order.begin(), oldest, oldest + 1);
 }
@@ -40,7 +41,7 @@ PriorityOrder initial_order(const Instance& instance, std::vector<std::size_t> r
 
 PriorityOrder initial_order(const std::vector<Robot>& all, const PlanOptions& options,
                             std::vector<std::size_t> robots, Random& random) {
-  const auto weighted_distance = [&](std::size_t i) {
+  const auto distance_of = [&](std::size_t i) {
     double distance = 0.0;
     Position from = all[i].committed_end().position;
     for (const Goal& goal : all[i].via) {
@@ -52,13 +53,16 @@ PriorityOrder initial_order(const std::vector<Robot>& all, const PlanOptions& op
   };
   switch (options.priority) {
     case PlanOptions::Priority::shortest_first:
-      std::stable_sort(robots.begin(), robots.end(),
-                       [&](auto a, auto b) { return weighted_distance(a) < weighted_distance(b); });
+      std::stable_sort(
+          robots.begin(), robots.end(),
+          // A heavy robot counts as so many times nearer (Smith's rule, 1956).
+          [&](auto a, auto b) { return distance_of(a) / all[a].weight < distance_of(b) / all[b].weight; });
       if (options.horizon) order_for_horizon(all, robots);
       break;
     case PlanOptions::Priority::longest_first:
-      std::stable_sort(robots.begin(), robots.end(),
-                       [&](auto a, auto b) { return weighted_distance(a) > weighted_distance(b); });
+      std::stable_sort(robots.begin(), robots.end(), [&](auto a, auto b) {
+        return distance_of(a) * all[a].weight > distance_of(b) * all[b].weight;
+      });
       break;
     case PlanOptions::Priority::random:
       random.shuffle(robots);

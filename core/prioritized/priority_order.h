@@ -13,7 +13,8 @@ namespace fleetplan::core {
 using PriorityOrder = std::vector<std::size_t>;
 
 /// Returns the first order of these robots (ascending, with goals), by the options' priority: by straight
-/// distance from start to goal, where a faster robot counts as slightly nearer, as listed, or at random.
+/// distance from start to goal, where a faster robot counts as slightly nearer, as listed, or at random. By
+/// distance, a heavy robot (Robot::weight) comes before others that are as far from their goals.
 /// Shortest first with a horizon, the robot with the oldest goal comes first, so that nobody is passed over
 /// for ever, and those that have arrived come last, so that they make way. Ties keep the order of the list.
 PriorityOrder initial_order(const Instance& instance, std::vector<std::size_t> robots, Random& random);

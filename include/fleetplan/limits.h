@@ -25,6 +25,9 @@ inline constexpr double kMostAngularSpeed = 1e6;
 /// The least and greatest accelerations and decelerations, metres (or radians) per second squared.
 inline constexpr double kLeastAcceleration = 1e-3;
 inline constexpr double kMostAcceleration = 1e6;
+/// The least and greatest weights of robots.
+inline constexpr double kLeastWeight = 1e-3;
+inline constexpr double kMostWeight = 1e3;
 /// The shortest horizon, seconds.
 inline constexpr double kShortestHorizon = 1e-3;
 /// The least angle, radians, by which a one-way zone lets robots move off its heading.

@@ -13,7 +13,11 @@ struct Options {
     first,    // returns the first plan
     anytime,  // uses the rest of the time budget to improve it
   };
-  enum class Objective { flowtime, makespan };  // the sum or the maximum of the robots' costs
+  enum class Objective {
+    flowtime,   // the sum of the robots' costs, each times its weight
+    makespan,   // their maximum
+    tardiness,  // the sum of how much later than due they arrive at goals, each times the robot's weight
+  };
   enum class Priority { shortest_first, longest_first, as_listed, random };
   enum class Reordering { raise_failed, random, none };
   enum class Replan {

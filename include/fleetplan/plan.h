@@ -97,6 +97,8 @@ struct Plan {
   std::vector<Unplanned> unplanned = {};
   std::vector<UnavoidableCollision> unavoidable = {};  // by time
   Objectives objectives;
+  /// The value of Options::objective, seconds; by the estimates where plans stop at the horizon.
+  double objective_value = 0.0;
   Objectives lower_bound;  // objectives of the planned robots' lower bounds
   /// Whether the independent checker (verify.h) has found no violation. False only if the time did not
   /// suffice for the check. A plan that it rejects is never returned, see plan().

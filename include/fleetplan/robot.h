@@ -18,6 +18,9 @@ struct Goal {
   double not_before = 0.0;           // seconds, >= 0: the service begins at this time at the earliest
   /// Metres: the radius of the robot from the end of the service on; none: as before.
   std::optional<double> radius_after = {};
+  /// Seconds by which the robot should arrive, not before `not_before`; see Options::Objective. Negative: the
+  /// past. None: it is never late.
+  std::optional<double> due = {};
 };
 
 /// A differential-drive robot: an open disk that waits, rotates in place or translates straight ahead (or
@@ -42,6 +45,7 @@ struct Robot {
 
   bool may_reverse = false;  // it may translate backwards
   double vicinity = 0.0;     // metres, >= 0: added to its radius against other robots only
+  double weight = 1.0;       // > 0: its cost and its delays count so many times in the objective
 };
 
 }  // namespace fleetplan

@@ -166,6 +166,12 @@ void add_members(Json& request, Choices& choices) {
   const int goals = choices.up_to(200);
   Json& robots = request["robots"];
   if (options.contains("horizon")) robots[0]["goal_age"] = 60.0;
+  const bool are_due = choices.yes();
+  if (are_due) options["objective"] = "tardiness";
+  for (std::size_t k = 0; are_due && k < robots.size(); ++k) {
+    robots[k]["weight"] = choices.one_of(std::array{0.001, 1.0, 1000.0});
+    if (robots[k].contains("goal")) robots[k]["goal"]["due"] = -10.0 + static_cast<double>(k % 100);
+  }
   for (std::size_t k = 0; goals > 0 && k < robots.size() && k < 100; ++k) {
     if (!robots[k].contains("goal")) continue;
     Json list = Json::array();

@@ -26,8 +26,8 @@ namespace {
 constexpr std::array<std::string_view, 12> kPlanMembers{
     "robot", "cost",       "lower_bound",      "estimated_cost", "ends_at",  "actions",
     "stuck", "blocked_by", "blocked_by_total", "visits",         "metadata", "lattice_spacing"};
-constexpr std::array<std::string_view, 8> kVisitMembers{"goal",   "t_arrive", "t_leave", "estimated_t_arrive",
-                                                        "reason", "zone",     "actions", "metadata"};
+constexpr std::array<std::string_view, 9> kVisitMembers{
+    "goal", "t_arrive", "t_leave", "late_by", "estimated_t_arrive", "reason", "zone", "actions", "metadata"};
 
 // A plan that begins before 0 is a violation to report, not a fault of the request.
 constexpr Range kPlanTime{-kLongestTime, kLongestTime, "seconds"};

@@ -16,8 +16,17 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<std::string_view, 8> kGoalMembers{
-    "x", "y", "theta", "service", "not_before", "radius_after", "actions", "metadata"};
+constexpr std::array<std::string_view, 9> kGoalMembers{
+    "x", "y", "theta", "service", "not_before", "due", "radius_after", "actions", "metadata"};
+
+/// A robot that waits for `not_before` is not late, so it cannot be due before.
+void check_due(const JsonReader& due, double due_at, double not_before) {
+  if (not_before <= 0.0 || due_at >= not_before) return;
+  due.fault(fault::kOutOfRange, [&] {
+    return "The goal is due at " + number_text(due_at) + " s, before its not_before, " +
+           number_text(not_before) + " s; make due at least not_before, or leave one of them out.";
+  });
+}
 
 /// Adds the goal if it is valid.
 void add_goal(const JsonReader& member, const WorldFrame& frame, ParsedGoals& read) {
@@ -26,6 +35,9 @@ void add_goal(const JsonReader& member, const WorldFrame& frame, ParsedGoals& re
   auto goal = parse_pose(json, frame);
   const auto service = json.find("service").number(kDuration);
   const auto not_before = json.find("not_before").number(kDuration);
+  const JsonReader due_member = json.find("due");
+  const auto due = due_member.number(kDue);
+  if (due) check_due(due_member, *due, not_before.value_or(0.0));
   const auto radius_after = json.find("radius_after").number(kLength);
   GoalTexts texts{parse_metadata(json), parse_goal_actions(json)};
   const bool has_texts = !texts.metadata.empty() || !texts.actions.empty();
@@ -33,7 +45,8 @@ void add_goal(const JsonReader& member, const WorldFrame& frame, ParsedGoals& re
   goal->service = service.value_or(0.0);
   goal->not_before = not_before.value_or(0.0);
   goal->radius_after = radius_after;
-  if (service || not_before || radius_after || has_texts) read.lists_visits = true;
+  goal->due = due;
+  if (service || not_before || due || radius_after || has_texts) read.lists_visits = true;
   if (has_texts) {
     read.texts.resize(read.goals.size());
     read.texts.push_back(std::move(texts));
@@ -79,7 +92,7 @@ ParsedGoals parse_goals(const JsonReader& robot, const WorldFrame& frame, Quota&
 
 namespace {
 
-constexpr std::array<std::string_view, 19> kRobotMembers{"id",
+constexpr std::array<std::string_view, 20> kRobotMembers{"id",
                                                          "radius",
                                                          "linear_speed",
                                                          "angular_speed",
@@ -95,6 +108,7 @@ constexpr std::array<std::string_view, 19> kRobotMembers{"id",
                                                          "goal",
                                                          "goals",
                                                          "goal_age",
+                                                         "weight",
                                                          "committed",
                                                          "previous",
                                                          "metadata"};
@@ -224,6 +238,7 @@ class RobotReader {
     read.stop_distance = traits.stop_distance.value.value_or(0.0);
     read.body_radius = traits.body_radius;
     robot.goal_age = json.find("goal_age").number(kDuration).value_or(0.0);
+    robot.weight = json.find("weight").number(kWeight).value_or(1.0);
     read.metadata = parse_metadata(json);
     ActionsOwner owner{.start = std::nullopt,
                        .linear_speed = traits.linear_speed.value,

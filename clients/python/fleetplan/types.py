@@ -196,6 +196,7 @@ class Goal(TypedDict):
     theta: NotRequired[float]
     service: NotRequired[float]
     not_before: NotRequired[float]
+    due: NotRequired[float]
     radius_after: NotRequired[float]
     actions: NotRequired[list[GoalAction]]
     metadata: NotRequired[Metadata]
@@ -221,6 +222,7 @@ class Robot(RobotDefaults, total=False):
     goal: Goal
     goals: list[Goal]
     goal_age: float
+    weight: float
     committed: list[Action]
     previous: list[Action]
     metadata: Metadata
@@ -232,7 +234,7 @@ class Robot(RobotDefaults, total=False):
 class PlanOptions(TypedDict, total=False):
     time_budget_ms: float
     mode: Literal["first", "anytime"]
-    objective: Literal["flowtime", "makespan"]
+    objective: Literal["flowtime", "makespan", "tardiness"]
     seed: int
     priority: Literal["shortest_first", "longest_first", "as_listed", "random"]
     reordering: Literal["raise_failed", "random", "none"]
@@ -269,6 +271,7 @@ class Visit(TypedDict):
     t_leave: float | None
     reason: NotRequired[Literal["zone_closed", "goal_before"]]
     zone: NotRequired[str]
+    late_by: NotRequired[float | None]
     estimated_t_arrive: NotRequired[float | None]
     actions: NotRequired[list[GoalAction]]
     metadata: NotRequired[Metadata]
@@ -373,6 +376,7 @@ class PlanAnswer(TypedDict):
     tight: NotRequired[list[TightPair] | None]
     flowtime: float
     makespan: float
+    objective_value: NotRequired[float]
     lower_bound: Objectives
     estimated: NotRequired[Objectives]
     verified: Literal[True]

@@ -49,6 +49,17 @@ TEST(Advance, ByDefaultTheActionUnderWayIsCommitted) {
   EXPECT_EQ(next.goal_count(), 2U);
 }
 
+TEST(Advance, CountsDueFromTheMoment) {
+  core::Robot due = robot();
+  due.weight = 5.0;
+  due.via[0].due = 1.0;
+  due.goal->due = 20.0;
+  const core::Robot next = advanced(due, plan(), moment(4.0));
+  EXPECT_EQ(next.goal_at(0).due, -3.0) << "it is late already";
+  EXPECT_EQ(next.goal_at(1).due, 16.0);
+  EXPECT_EQ(next.weight, 5.0);
+}
+
 TEST(Advance, AHorizonCutsTheActionUnderWay) {
   const core::Robot next = advanced(robot(), plan(), moment(0.5, 1.0));
   ASSERT_EQ(next.committed.size(), 1U);

@@ -79,6 +79,47 @@ TEST(MotionAnswer, ListsTheVisitsOfGoals) {
   EXPECT_EQ(verdict_of(request, answer)["violations"], Json::array());
 }
 
+TEST(MotionAnswer, TellsHowLateRobotsAre) {
+  Json request = swap_request();
+  EXPECT_FALSE(answer_of(request).contains("objective_value"));
+  request["options"]["objective"] = "tardiness";
+  EXPECT_EQ(answer_of(request)["objective_value"], 0.0) << "nothing is due";
+  request["robots"][0]["goal"]["due"] = -2.0;
+  request["robots"][0]["weight"] = 3.0;
+  request["robots"][1]["goal"]["due"] = 1000.0;
+  const Json answer = answer_of(request);
+  ASSERT_EQ(answer["status"], "solved") << answer.dump();
+  const Json& visit = answer["plans"][0]["visits"][0];
+  const double late = visit["t_arrive"].get<double>() + 2.0;
+  EXPECT_DOUBLE_EQ(visit["late_by"].get<double>(), late);
+  EXPECT_EQ(answer["plans"][1]["visits"][0]["late_by"], 0.0);
+  EXPECT_DOUBLE_EQ(answer["objective_value"].get<double>(), 3.0 * late);
+  EXPECT_EQ(verdict_of(request, answer)["violations"], Json::array()) << "late_by is ignored";
+}
+
+TEST(MotionAnswer, CountsCostsByWeight) {
+  Json request = swap_request();
+  request["robots"][1]["weight"] = 0.5;
+  const Json answer = answer_of(request);
+  ASSERT_EQ(answer["status"], "solved") << answer.dump();
+  const double first = answer["plans"][0]["cost"].get<double>();
+  const double second = answer["plans"][1]["cost"].get<double>();
+  EXPECT_DOUBLE_EQ(answer["objective_value"].get<double>(), first + 0.5 * second);
+  EXPECT_DOUBLE_EQ(answer["flowtime"].get<double>(), first + second);
+}
+
+TEST(MotionAnswer, EstimatesHowLateRobotsAreBeyondTheHorizon) {
+  Json request = swap_request();
+  request["options"]["horizon"] = 1.0;
+  request["options"]["objective"] = "tardiness";
+  request["robots"][0]["goal"]["due"] = 0.0;
+  const Json answer = answer_of(request);
+  const Json& visit = answer["plans"][0]["visits"][0];
+  EXPECT_EQ(visit["t_arrive"], nullptr);
+  EXPECT_EQ(visit["late_by"], visit["estimated_t_arrive"]);
+  EXPECT_DOUBLE_EQ(answer["objective_value"].get<double>(), visit["late_by"].get<double>());
+}
+
 TEST(MotionAnswer, OfAnUnplannedRobotHasItsCommittedActions) {
   Json request = moving_request();
   request["robots"][0]["committed"].erase(1);

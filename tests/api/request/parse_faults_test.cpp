@@ -122,7 +122,7 @@ INSTANTIATE_TEST_SUITE_P(
         option("BudgetIsText", "time_budget_ms", "5s", "wrong_type", "must be a number"),
         option("Mode", "mode", "fast", "unknown_value", "\"first\" or \"anytime\", not \"fast\""),
         option("ModeMistyped", "mode", "anytimes", "unknown_value", "did you mean \"anytime\"?"),
-        option("ObjectiveIsANumber", "objective", 1, "wrong_type", "\"flowtime\" or \"makespan\""),
+        option("ObjectiveIsANumber", "objective", 1, "wrong_type", "\"makespan\" or \"tardiness\""),
         option("Priority", "priority", "x", "unknown_value", "\"as_listed\" or \"random\""),
         option("Reordering", "reordering", "x", "unknown_value", "\"raise_failed\", \"random\" or \"none\""),
         option("SeedIsNegative", "seed", -1, "out_of_range", "0 to 18446744073709551615, not -1"),

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/prioritized/prioritized_planning.h"
 #include "core/prioritized/triage.h"
@@ -82,6 +83,42 @@ TEST(LargeNeighbourhoodSearch, LowersTheMakespanWithThatObjective) {
   large_neighbourhood_search(p.state, movers, bounds_of(p), p.random, p.callers_thread, p.never);
   EXPECT_LT(value_of(p.state).makespan, before.makespan);
   expect_safe(p.state);
+}
+
+/// Two robots that meet head-on in a corridor with one bay.
+std::vector<Robot> meeting() { return {robot_at(0.5, 0.5).to(10.5, 0.5), robot_at(10.5, 0.5).to(0.5, 0.5)}; }
+
+OccupancyGrid corridor_with_bay() {
+  return support::ascii_map({"#####.#####",  //
+                             "..........."});
+}
+
+/// The costs of both robots after improvement.
+std::pair<double, double> improved_costs(std::vector<Robot> robots, Objective objective) {
+  Planning p(corridor_with_bay(), std::move(robots), iterations(60, objective));
+  const auto movers = plan_first_solution(p);
+  large_neighbourhood_search(p.state, movers, bounds_of(p), p.random, p.callers_thread, p.never);
+  expect_safe(p.state);
+  return {p.state.trajectory(0)->cost, p.state.trajectory(1)->cost};
+}
+
+TEST(LargeNeighbourhoodSearch, LetsTheHeavyRobotPass) {
+  for (const std::size_t heavy : {0U, 1U}) {
+    std::vector<Robot> robots = meeting();
+    robots[heavy].weight = 100.0;
+    const auto [a, b] = improved_costs(robots, Objective::flowtime);
+    EXPECT_LT(heavy == 0 ? a : b, heavy == 0 ? b : a);
+  }
+}
+
+TEST(LargeNeighbourhoodSearch, LetsTheRobotPassThatIsDueWithThatObjective) {
+  for (const std::size_t urgent : {0U, 1U}) {
+    std::vector<Robot> robots = meeting();
+    robots[urgent].goal->due = 10.0;
+    robots[1 - urgent].goal->due = 100.0;
+    const auto [a, b] = improved_costs(robots, Objective::tardiness);
+    EXPECT_LE(urgent == 0 ? a : b, 10.0 + 1e-9);
+  }
 }
 
 TEST(LargeNeighbourhoodSearch, ChangesNothingWithoutIterations) {

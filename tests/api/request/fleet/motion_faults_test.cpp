@@ -93,6 +93,21 @@ INSTANTIATE_TEST_SUITE_P(
                          "/robots/0/goals", "duplicate", "both goal and goals"},
                     Case{"NegativeService", [](Json& r) { robot(r, 0)["goal"]["service"] = -1; },
                          "/robots/0/goal/service", "out_of_range", "seconds"},
+                    Case{"DueAsText", [](Json& r) { robot(r, 0)["goal"]["due"] = "noon"; },
+                         "/robots/0/goal/due", "wrong_type", "number"},
+                    Case{"DueTooLate", [](Json& r) { robot(r, 0)["goal"]["due"] = 1e9; },
+                         "/robots/0/goal/due", "out_of_range", "seconds"},
+                    Case{"DueTooEarly",
+                         [](Json& r) {
+                           robot(r, 0)["goal"]["not_before"] = 20;
+                           robot(r, 0)["goal"]["due"] = 19.5;
+                         },
+                         "/robots/0/goal/due", "out_of_range",
+                         "due at 19.5 s, before its not_before, 20 s; make due at least not_before"},
+                    Case{"NoWeight", [](Json& r) { robot(r, 0)["weight"] = 0; }, "/robots/0/weight",
+                         "out_of_range", "0.001"},
+                    Case{"WeightOfDefaults", [](Json& r) { r["robot_defaults"]["weight"] = 2; },
+                         "/robot_defaults/weight", "unknown_key", "weight"},
                     Case{"NoRadius", [](Json& r) { robot(r, 0)["goal"]["radius_after"] = 0.0; },
                          "/robots/0/goal/radius_after", "out_of_range", "metres"},
                     Case{"RadiusOfAnotherType", [](Json& r) { robot(r, 0)["goal"]["radius_after"] = "big"; },
