@@ -19,6 +19,7 @@
 #include "core/prioritized/prioritized_planning.h"
 #include "core/prioritized/progress_report.h"
 #include "core/prioritized/triage.h"
+#include "core/prioritized/yielding.h"
 #include "core/prioritized/zones_in_the_way.h"
 #include "core/replan/kept_plans.h"
 #include "core/runtime/memory_account.h"
@@ -47,11 +48,14 @@ Objectives objectives_of(const PlanState& state) {
 /// The maximum share of the remaining time for lower bounds in mode `anytime`; the rest is for improvement.
 constexpr double kBoundsShare = 0.2;
 
-std::vector<std::size_t> robots_to_plan(const Instance& instance,
+/// The robots that triage leaves to be planned.
+std::vector<std::size_t> robots_to_plan(const PlanState& state,
                                         const std::vector<std::optional<Unplanned>>& unplanned) {
+  const std::vector<double>& stays_until = state.reservations().at_start_until;
   std::vector<std::size_t> movers;
-  for (std::size_t i = 0; i < instance.size(); ++i) {
-    if (instance.robot(i).goal && !unplanned[i]) movers.push_back(i);
+  for (std::size_t i = 0; i < state.instance().size(); ++i) {
+    const Robot& robot = state.instance().robot(i);
+    if (robot.goal && !unplanned[i] && !(robot.is_idle() && stays_until[i] == kForever)) movers.push_back(i);
   }
   return movers;
 }
@@ -238,10 +242,13 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
 
   const KeptPlans previous = plans_to_begin_with(problem, options, beyond_budget(stop, kMostForPrevious));
   std::vector<std::optional<Unplanned>> unplanned = triage(state, stop, previous.kept);
-  std::vector<std::size_t> movers = robots_to_plan(instance, unplanned);
+  std::vector<std::size_t> movers = robots_to_plan(state, unplanned);
   PrioritizedResult prioritized = first_plan(state, previous, movers, random, stop, progress);
-  for (Unplanned& robot : prioritized.unplanned) unplanned[robot.robot] = std::move(robot);
+  for (Unplanned& robot : prioritized.unplanned) {
+    if (!instance.robot(robot.robot).is_idle()) unplanned[robot.robot] = std::move(robot);
+  }
   std::erase_if(movers, [&](std::size_t robot) { return !state.trajectory(robot); });
+  bool cut_off = undo_vain_moves(state, stop);
   unplanned = with_zones_named(problem, options, std::move(unplanned), stop);
   const UnavoidableCollisions found =
       find_unavoidable(state, unplanned, beyond_budget(stop, kMostForUnavoidable));
@@ -265,14 +272,15 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
     if (!stop.is_over()) state.resume();
     lns = large_neighbourhood_search(state, changeable_robots(state, movers), bounds, random, executor, stop,
                                      before_round);
+    cut_off = undo_vain_moves(state, stop) || cut_off;
   }
 
   Plan plan = with_stuck_explained(state, current_plan(lns), briefly(stop));
   progress.plan_found(plan.objectives);
   const bool may_plan_more = !plan.unplanned.empty() && prioritized.cut_off;
   plan.search.exhausted = !may_plan_more && (anytime ? lns.exhausted : !plan.unplanned.empty());
-  plan.deterministic = plan.deterministic && !previous.cut_off && !prioritized.cut_off && !bounds.cut_off() &&
-                       !lns.cut_off && !stop.cancelled();
+  cut_off = cut_off || previous.cut_off || prioritized.cut_off || bounds.cut_off() || lns.cut_off;
+  plan.deterministic = plan.deterministic && !cut_off && !stop.cancelled();
   keep_for_later(memory);
   return memory_shortages() > 0 ? with_spent_memory_named(std::move(plan)) : plan;
 }

@@ -81,8 +81,13 @@ GoalsLeft goals_left(const core::Robot& robot, const Execution& execution, doubl
   if (not_before > 0.0) due = std::max(due, not_before);
   left.age = std::clamp(at - due, 0.0, kLongestTime);
   core::Goal& last = left.goals.back();
-  if (last.radius_after && execution.planned && has_served_last(robot, actions, progress)) {
-    left.radius = *std::exchange(last.radius_after, std::nullopt);
+  const bool matters = last.radius_after || execution.stays_when_served;
+  const bool is_served = matters && execution.planned && has_served_last(robot, actions, progress);
+  if (is_served && last.radius_after) left.radius = *std::exchange(last.radius_after, std::nullopt);
+  if (is_served && execution.stays_when_served) {
+    left.visited = robot.goal_count();
+    left.goals.clear();
+    return left;
   }
   core::Goal& next = left.goals.front();
   const auto reported = service_left_of(execution, left.visited);

@@ -55,7 +55,8 @@ struct Execution {
   std::optional<ReportedState> reported = {};  // measured there, if it has a measured pose, too
   std::optional<double> hold = {};             // until then on the clock of the moment
   std::optional<std::vector<core::Goal>> goals = {};
-  double stop_distance = 0.0;  // metres that it drives until it can stand, if it drives at the moment
+  double stop_distance = 0.0;      // metres that it drives until it can stand, if it drives at the moment
+  bool stays_when_served = false;  // then it has no goal any more, and does not move
 };
 
 /// The robot of the request of that moment: its start, goals, radius, committed and previous actions. Its

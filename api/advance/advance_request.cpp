@@ -75,6 +75,9 @@ void parse_events(const JsonReader& root, const RobotNames& names, const Limits&
     ParsedGoals goals = parse_goals(entry, WorldFrame{}, quota);
     if (!robot) return;
     executions[*robot].goals = std::move(goals.goals);
+    if (request.fleet.robots[*robot].robot.yields()) {
+      executions[*robot].goals->emplace_back().anywhere = true;
+    }
     request.goal_texts[*robot] = std::move(goals.texts);
   });
 }
@@ -206,6 +209,7 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
     if (stop.met_after(corners)) return std::nullopt;
     if (!read.executions[index].goals) read.goal_texts[index] = std::move(robot.goal_texts);
     read.executions[index].stop_distance = robot.stop_distance;
+    read.executions[index].stays_when_served = robot.idle == Idle::stay;
     // A robot that is off its path turns back as slowly as it has to anywhere.
     const core::DriveZones zones(fleet.zones, index, robot.robot);
     robot.robot.angular_speed = zones.least_angular_speed();
@@ -272,7 +276,11 @@ class TextsOfGoals {
     const Execution& execution = request.executions[index];
     const std::size_t had = execution.goals ? execution.goals->size() : request.robots[index].goal_count();
     visited_ = had - left.goal_count();
+    are_other_ = execution.goals.has_value();
   }
+
+  /// Whether the robot has got other goals.
+  bool are_other() const { return are_other_; }
 
   const GoalTexts& of(std::size_t goal) const {
     static const GoalTexts none;
@@ -282,17 +290,19 @@ class TextsOfGoals {
  private:
   const std::vector<GoalTexts>& all_;
   std::size_t visited_ = 0;
+  bool are_other_ = false;
 };
 
 /// As one goal if the request gave one goal, otherwise as a list.
 void write_goals(JsonWriter& json, const core::Robot& robot, const TextsOfGoals& texts, bool as_one) {
-  if (!robot.goal) return;
-  if (as_one && robot.via.empty()) {
+  const std::size_t count = robot.own_goal_count();
+  if (count == 0) return;
+  if (as_one && count == 1) {
     json.key("goal");
-    return write_goal(json, *robot.goal, texts.of(0));
+    return write_goal(json, robot.goal_at(0), texts.of(0));
   }
   json.key("goals").begin_array();
-  for (std::size_t k = 0; k < robot.goal_count(); ++k) write_goal(json, robot.goal_at(k), texts.of(k));
+  for (std::size_t k = 0; k < count; ++k) write_goal(json, robot.goal_at(k), texts.of(k));
   json.end_array();
 }
 
@@ -309,7 +319,8 @@ void write_robot(JsonWriter& json, const JsonValue& given, double radius, const 
   }
   if (has_other_radius) json.member("radius", robot.radius);
   write_pose(json, "start", robot.start);
-  write_goals(json, robot, texts, given.find("goal").has_value());
+  const bool is_listed = given.find("goals").has_value() || texts.are_other();
+  write_goals(json, robot, texts, given.find("goal").has_value() || !is_listed);
   if (robot.goal_age > 0.0) json.member("goal_age", robot.goal_age);
   if (!robot.committed.empty()) write_actions(json, "committed", robot.committed, work);
   if (robot.previous) write_actions(json, "previous", *robot.previous, work);

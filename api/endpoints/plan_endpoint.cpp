@@ -93,7 +93,11 @@ core::Plan without_moves(const core::Plan& plan, const core::Problem& problem,
   left.unplanned = plan.unplanned;
   if (plan.estimated) left.estimated = core::Objectives();
   for (const core::RobotPlan& robot : plan.plans) {
-    if (!moves(robot, problem)) {
+    const core::Robot& of = problem.robots()[robot.robot];
+    if (moves(robot, problem) && of.is_idle()) {
+      left.plans.push_back({robot.robot, of.committed_until(), of.committed, of.committed_until()});
+      if (left.estimated) left.estimated->flowtime += of.committed_until();
+    } else if (!moves(robot, problem)) {
       left.plans.push_back(robot);
       if (left.estimated) left.estimated->flowtime += robot.cost;
     } else {

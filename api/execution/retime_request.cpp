@@ -157,6 +157,7 @@ void write_visits_left(JsonWriter& json, const core::Robot& robot, core::Actions
   const core::Pace pace(actions);
   json.key("visits").begin_array();
   for (const core::Visit& visit : core::visits_of(robot, actions)) {
+    if (robot.goal_at(visit.goal).anywhere) continue;
     const auto arrives = new_time(pace, retimed, visit.t_arrive);
     const bool stays = visit.t_leave == core::kForever;
     const auto leaves = stays ? std::nullopt : new_time(pace, retimed, visit.t_leave);

@@ -187,11 +187,13 @@ void write_goals_put_off(JsonWriter& json, const core::PostponedGoals& goals, co
   }
 }
 
-/// Writes the visits of a plan, and those that it leaves at the horizon. `goes_on`: it puts other goals off,
+/// Writes the visits of a plan, and those that it leaves at the horizon. A goal that is anywhere is none of
+/// the request. `goes_on`: it puts other goals off,
 /// so that the service at its last one has an end.
 void write_planned_visits(JsonWriter& json, const core::RobotPlan& plan, const core::Robot& robot,
                           bool goes_on, const std::vector<GoalTexts>& texts) {
   for (const core::Visit& visit : plan.visits) {
+    if (robot.goal_at(visit.goal).anywhere) continue;
     json.begin_object().member("goal", visit.goal).member("t_arrive", visit.t_arrive);
     const bool stays = visit.t_leave == core::kForever;
     json.member("t_leave", stays && goes_on ? plan.cost : visit.t_leave);  // null at the last goal
@@ -199,6 +201,7 @@ void write_planned_visits(JsonWriter& json, const core::RobotPlan& plan, const c
     end_visit(json, visit.goal, texts);
   }
   for (const core::Visit& visit : plan.estimated_visits) {
+    if (robot.goal_at(visit.goal).anywhere) continue;
     begin_visit_without_times(json, visit.goal);
     json.member("estimated_t_arrive", visit.t_arrive);  // null without a way
     write_late_by(json, robot.goal_at(visit.goal), visit.t_arrive);

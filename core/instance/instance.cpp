@@ -69,7 +69,7 @@ std::vector<Endpoints> endpoints(const Problem& problem, const Lattices& lattice
     ends.start_rounding = rounding(ends.start);
     ends.radius_at_start = radius;
     ends.grows_at_start = growth_at_end(robot, itinerary_of(robot)).has_value();
-    if (robot.goal) {
+    if (robot.goal && !robot.yields()) {
       ends.goal = robot.goal->position;
       ends.goal_rounding = rounding(*ends.goal);
       ends.radius_at_goal = last_radius(robot);
@@ -194,6 +194,7 @@ bool Instance::fits_at_start(std::size_t index) const {
 bool Instance::fits_at_goal(std::size_t index) const {
   const std::vector<Goal>& goals = itineraries_[index].goals;
   for (std::size_t k = 0; k < goals.size(); ++k) {
+    if (goals[k].anywhere) continue;
     const double largest = std::max(motion(index, k).radius, motion(index, k + 1).radius);
     if (!sight(index).disk_fits(goals[k].position, largest - kMostOverlap)) return false;
   }

@@ -59,6 +59,7 @@ class GoalService {
 }  // namespace
 
 bool is_in_pose(const Pose& pose, const Goal& goal) {
+  if (goal.anywhere) return true;
   return (pose.position - goal.position).norm() <= kContactTolerance &&
          (!goal.theta || angle_between(pose.theta, *goal.theta) <= kContactTolerance);
 }

@@ -13,7 +13,7 @@
 namespace fleetplan::core {
 
 /// Whether a robot in this pose is in the pose of the goal, within kContactTolerance; for a goal without
-/// theta, with any heading.
+/// theta, with any heading. Any pose is that of a goal that is anywhere.
 bool is_in_pose(const Pose& pose, const Goal& goal);
 
 /// Whether nothing is left to do for the robot, which has a goal, when its committed actions end.

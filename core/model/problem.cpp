@@ -91,6 +91,7 @@ class FaultSearch {
         faults_.finished = false;
         return;
       }
+      if (robot.goal_at(k).anywhere) continue;
       const double leaves = robot.goal_at(k).radius_after.value_or(arrives);
       const double larger = std::max(arrives, leaves);
       check(robot.goal_at(k).position, clear(larger),
@@ -112,7 +113,7 @@ class FaultSearch {
     };
     check(a.start.position, b.start.position, a.radius + b.radius, conditions_.pair_overlap,
           ProblemFault::Kind::starts_overlap);
-    if (a.goal && b.goal) {
+    if (a.goal && b.goal && !a.yields() && !b.yields()) {
       check(a.goal->position, b.goal->position, last_radii_[other] + last_radii_[index], 0.0,
             ProblemFault::Kind::goals_overlap);
     }

@@ -23,7 +23,7 @@ struct ProblemFault {
     start_in_obstacle,  // the robot's disk at its start overlaps a blocked cell or zone, or leaves the map
     goal_in_obstacle,   // the robot's disk at a goal overlaps a blocked cell or zone, or leaves the map
     starts_overlap,     // the starts of `robot` and `other` (< robot) overlap
-    goals_overlap,      // the last goals of `robot` and `other` (< robot) overlap
+    goals_overlap,      // the last goals of `robot` and `other` (< robot) overlap, and neither yields
     /// The committed motion of `robot`, to its own end, collides with that of another robot, a robot that
     /// stands at its start, a wall, a blocked zone or the edge of the map.
     committed_collision,

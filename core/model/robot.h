@@ -22,6 +22,10 @@ struct Goal {
   std::optional<double> radius_after = {};
   /// Seconds: by when the robot should arrive, see PlanOptions::Objective; may be negative: the past.
   std::optional<double> due = {};
+  /// No pose of its own, but any place where the robot may rest for good: the last goal of a robot that makes
+  /// way when it has nothing else to do (Robot::yields). Then `position` is that of the goal before it, or
+  /// where the plan begins.
+  bool anywhere = false;
 };
 
 /// A differential-drive robot: an open disk that waits, rotates in place or translates straight ahead (or
@@ -30,7 +34,7 @@ struct Goal {
 ///
 /// It visits the goals of `via` in their order and then `goal`, where it stays. Goals are numbered in this
 /// order from 0. A goal is visited when the robot is at rest in its pose for the whole service, after the
-/// goals before it.
+/// goals before it. The last one may be anywhere (Goal::anywhere).
 struct Robot {
   std::string id;
   double radius = 0.0;         // metres, > 0
@@ -60,6 +64,19 @@ struct Robot {
   Inertia angular_inertia() const { return {1.0 / angular_acceleration, 1.0 / angular_acceleration}; }
 
   std::size_t goal_count() const { return via.size() + (goal ? 1 : 0); }
+  /// Whether it makes way for others once it has served its own goals, or if it has none.
+  bool yields() const { return goal && goal->anywhere; }
+  /// Whether it yields and has no goals of its own: it need not move.
+  bool is_idle() const { return yields() && via.empty(); }
+  /// The goals that have a pose.
+  std::size_t own_goal_count() const { return goal_count() - (yields() ? 1 : 0); }
+  /// Appends the goal that makes it yield.
+  void let_yield() {
+    Goal place{goal ? goal->position : committed_end().position, std::nullopt};
+    place.anywhere = true;
+    if (goal) via.push_back(*goal);
+    goal = place;
+  }
   const Goal& goal_at(std::size_t index) const { return index < via.size() ? via[index] : *goal; }
   /// The pose in which the committed actions end, and the time of it in seconds: the start and 0 without any.
   Pose committed_end() const { return committed.empty() ? start : committed.back().to; }

@@ -190,28 +190,37 @@ class WaysOut {
     Leaving result;
     result.postponed = postponed(index, itinerary.first_goal, radii);
     const bool has_goals_left = !result.postponed || result.postponed->first > itinerary.first_goal;
+    const bool yields = robot.yields();
     if (result.postponed) take_goals_away(robot, has_goals_left ? result.postponed->first : 0);
+    find_way(index, itinerary, radius, has_goals_left, result);
+    if (result.postponed && yields) robot.let_yield();
+    return result;
+  }
+
+  /// The way out of a robot that begins inside.
+  void find_way(std::size_t index, const Itinerary& itinerary, double radius, bool has_goals_left,
+                Leaving& result) {
     const Position& from = itinerary.pose.position;
-    if (maps_.of(index)->sight().disk_fits(from, needed(radius))) return result;
+    if (maps_.of(index)->sight().disk_fits(from, needed(radius))) return;
     const auto may_end = [&](const Position& place) {
       return has_goals_left || is_out_of_the_way(index, radius, place);
     };
     result.way_out = way_out(index, from, radius, may_end);
-    if (has_goals_left || result.way_out.empty()) return result;
+    if (has_goals_left || result.way_out.empty()) return;
     result.rests_outside = true;
-    robot.goal = Goal{result.way_out.back(), std::nullopt};
-    return result;
+    robots_[index].goal = Goal{result.way_out.back(), std::nullopt};
   }
 
   std::optional<PostponedGoals> postponed(std::size_t index, std::size_t first,
                                           const std::vector<double>& radii) const {
     const Robot& robot = robots_[index];
-    for (std::size_t k = first; k < robot.goal_count(); ++k) {
+    const std::size_t count = robot.own_goal_count();
+    for (std::size_t k = first; k < count; ++k) {
       const Position& place = robot.goal_at(k).position;
       const double radius = std::max(radii[k], radii[k + 1]);
       if (maps_.of(index)->sight().disk_fits(place, needed(radius))) continue;
       const auto zone = nearest_zone_to_leave(zones_, index, place, radius);
-      if (zone) return PostponedGoals{k, robot.goal_count() - k, zone->index};
+      if (zone) return PostponedGoals{k, count - k, zone->index};
     }
     return std::nullopt;
   }

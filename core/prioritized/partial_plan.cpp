@@ -206,6 +206,7 @@ PartialPlan explain(PlanState& state, const SafePlan& plan, const StopCondition&
   BlockingRobots blocking(state, stop);
   PartialPlan partial;
   for (const SafePlan::Staying& staying : plan.staying) {
+    if (state.instance().robot(staying.robot).is_idle()) continue;  // it need not move
     partial.unplanned.push_back(explain(state, staying, blocking));
   }
   partial.cut_off = plan.cut_off || (!plan.staying.empty() && stop.met());

@@ -21,6 +21,8 @@ constexpr double kWidestCells = 3.0;
 constexpr std::int64_t kFirstExpansions = 16'384;
 /// Seconds: a way that ends later by less is no later than by the previous plan; far above rounding.
 constexpr double kNoLater = 1e-6;
+/// Seconds: later than any robot leaves the place where it was served.
+constexpr double kAfterAllExits = 1e6;
 /// Goals of a robot between two checks of the stop condition.
 constexpr std::size_t kGoalsBetweenStops = 16;
 
@@ -46,6 +48,17 @@ std::vector<SizedSegment> from_time(double t, std::vector<SizedSegment> segments
   return segments;
 }
 
+/// The part of contiguous segments until `t`.
+std::vector<SizedSegment> until_time(double t, std::vector<SizedSegment> segments) {
+  std::erase_if(segments, [&](const SizedSegment& segment) { return segment.t_start >= t; });
+  if (!segments.empty() && segments.back().t_end > t) {
+    SizedSegment& last = segments.back();
+    last.path.to = last.path.from + last.velocity() * (t - last.t_start);
+    last.t_end = t;
+  }
+  return segments;
+}
+
 const Contacts* contacts(const Instance& instance) {
   return instance.contacts().empty() ? nullptr : &instance.contacts();
 }
@@ -66,7 +79,11 @@ PlanState::PlanState(const Instance& instance)
       reservations_{std::vector<std::optional<Trajectory>>(instance.size()),
                     std::vector<double>(instance.size(), 0.0)},
       search_spaces_(instance),
-      ways_(instance.size()) {}
+      ways_(instance.size()) {
+  for (std::size_t robot = 0; robot < instance.size(); ++robot) {
+    if (instance.robot(robot).yields() && !instance.robot(robot).invalid) yielding_.push_back(robot);
+  }
+}
 
 Trajectory PlanState::staying(std::size_t robot) const { return instance_.itinerary(robot).committed; }
 
@@ -278,10 +295,67 @@ SearchResult PlanState::search_until(double horizon, std::size_t robot, const Se
 
 /// Whether the robot may rest at its goal from some time on: if not, a search need not be prepared.
 bool PlanState::goal_stays_free(std::size_t robot) const {
+  if (instance_.robot(robot).yields()) return true;
   const std::size_t at_rest = instance_.itinerary(robot).goals.size();
   const Footprint footprint{robot, instance_.radius(robot, at_rest)};
   const auto safe = table_.safe_intervals(footprint, instance_.robot(robot).goal->position);
   return !safe.empty() && safe.back().end == kForever;
+}
+
+SearchResult PlanState::plan_past_yielding(std::size_t robot, const SearchLimits& limits,
+                                           const StopCondition& stop) {
+  std::vector<std::size_t> shortened;
+  for (const std::size_t other : yielding_) {
+    const auto rests_from = other != robot && trajectory(other) ? done_from(other) : std::nullopt;
+    if (!rests_from) continue;
+    std::vector<SizedSegment> segments = until_time(*rests_from + instance_.options().start_safe_interval,
+                                                    after_commitment(other, *trajectory(other)));
+    table_.remove(other);
+    if (!segments.empty()) table_.reserve(other, segments);
+    shortened.push_back(other);
+  }
+  if (shortened.empty()) return {};
+  SearchResult result = search(robot, limits, stop);
+  for (const std::size_t other : shortened) {
+    table_.remove(other);
+    table_.reserve(other, after_commitment(other, *trajectory(other)));
+  }
+  return result;
+}
+
+SearchResult PlanState::plan_leaving_for(std::size_t other, std::size_t robot, const SearchLimits& limits,
+                                         const StopCondition& stop) {
+  const Trajectory followed = *trajectory(robot);
+  const Itinerary& itinerary = instance_.itinerary(other);
+  const auto distance = [&](const Goal& goal) { return (goal.position - followed.end()).squaredNorm(); };
+  std::size_t nearest = 0;
+  for (std::size_t k = 1; k < itinerary.goals.size(); ++k) {
+    if (distance(itinerary.goals[k]) < distance(itinerary.goals[nearest])) nearest = k;
+  }
+  const Position& place = itinerary.goals[nearest].position;
+  remove(robot);
+  table_.reserve(other, {{{{place, place}, kAfterAllExits, kForever}, instance_.radius(other, nearest)}});
+  SearchResult result = search(robot, limits, stop);
+  table_.remove(other);
+  follow(robot, followed);
+  return result;
+}
+
+bool PlanState::makes_way(std::size_t robot) const {
+  if (!instance_.robot(robot).yields() || !trajectory(robot)) return false;
+  const std::vector<TimedSegment>& moves = trajectory(robot)->moves;
+  const auto done = done_from(robot);
+  return done && !moves.empty() && moves.back().t_start >= *done;
+}
+
+/// From when on a robot that yields has served its own goals by its trajectory; none if it does not.
+std::optional<double> PlanState::done_from(std::size_t robot) const {
+  const std::size_t own_goals = instance_.robot(robot).own_goal_count();
+  const Itinerary& itinerary = instance_.itinerary(robot);
+  if (itinerary.first_goal >= own_goals) return itinerary.t_begin;
+  const std::vector<Visit>& visits = trajectory(robot)->visits;
+  if (visits.empty() || visits.back().goal + 1 < own_goals) return std::nullopt;
+  return visits.back().t_leave;
 }
 
 SearchResult PlanState::plan_ignoring(const std::vector<std::size_t>& ignored, std::size_t robot,

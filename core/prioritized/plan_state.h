@@ -85,6 +85,19 @@ class PlanState {
   SearchResult plan_ignoring(const std::vector<std::size_t>& ignored, std::size_t robot,
                              const SearchLimits& limits, const StopCondition& stop);
 
+  /// Whether robots yield (Robot::yields).
+  bool any_yields() const { return !yielding_.empty(); }
+  /// Plans a robot as plan() does, as if each planned robot that yields were gone as soon as it has served
+  /// its own goals and stood there for the start safe interval. No trajectory if there are no such robots.
+  SearchResult plan_past_yielding(std::size_t robot, const SearchLimits& limits, const StopCondition& stop);
+  /// Plans a robot that yields and has a trajectory anew, so that it does not end in the place of a goal of
+  /// `other`, which has no reservation: of the goal that is nearest to where it ends now. Changes no
+  /// reservation.
+  SearchResult plan_leaving_for(std::size_t other, std::size_t robot, const SearchLimits& limits,
+                                const StopCondition& stop);
+  /// Whether a robot that yields moves after it has served its own goals.
+  bool makes_way(std::size_t robot) const;
+
   /// Whether obstacles allow the robot a move from its start; true if `stop` is met first.
   bool can_leave_start(std::size_t robot, const StopCondition& stop);
   /// Whether the robot has a way to its goal past obstacles and the robots that stay; unknown if `stop` is
@@ -134,6 +147,7 @@ class PlanState {
   void forget_ways_closed_by_robots(std::size_t except);
   std::vector<std::size_t> arrived_without_plan(std::size_t except) const;
   bool goal_stays_free(std::size_t robot) const;
+  std::optional<double> done_from(std::size_t robot) const;
   Way way_off_lattice(std::size_t robot) const;
   bool test_enclosure(std::size_t robot, std::int64_t max_steps);
   void reserve(std::size_t robot, const std::vector<SizedSegment>& segments);
@@ -151,6 +165,7 @@ class PlanState {
   std::vector<Way> ways_;                      // by robot
   std::vector<std::size_t> closed_by_robots_;  // robots whose way robots close, until one of those leaves
   std::optional<std::size_t> whole_way_of_;
+  std::vector<std::size_t> yielding_;  // ascending
   std::int64_t expansions_ = 0;
   std::int64_t map_expansions_ = 0;
 };

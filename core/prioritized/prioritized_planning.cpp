@@ -99,7 +99,7 @@ class PrioritizedPlanning {
     const OnStop keep_plan = [this](const auto& unsolved, const auto& given_up) {
       return keep_safe_plan(unsolved, given_up);
     };
-    if (reordering == PlanOptions::Reordering::random || has_few_robots()) {
+    if (reordering == PlanOptions::Reordering::random || tries_all_orders()) {
       return plan_with_restarts(state_, order_, random_, stop_, progress_, keep_plan);
     }
     return repair_or_restart(state_, order_, random_, stop_, progress_, keep_plan);
@@ -124,11 +124,12 @@ class PrioritizedPlanning {
     best_ = KeptPlan{std::move(plan), state_.reservations()};
   }
 
-  bool has_few_robots() const { return order_.size() <= kFewRobots; }
+  /// Robots that yield make way without another order.
+  bool tries_all_orders() const { return order_.size() <= kFewRobots && !state_.any_yields(); }
 
   bool other_orders_may_help(const OrderingResult& ordering) const {
     const auto reordering = state_.instance().options().reordering;
-    return reordering == PlanOptions::Reordering::raise_failed && !has_few_robots() &&
+    return reordering == PlanOptions::Reordering::raise_failed && !tries_all_orders() &&
            ordering.hopeless.size() < ordering.given_up.size();
   }
 

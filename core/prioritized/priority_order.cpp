@@ -25,8 +25,8 @@ std::size_t permutations(std::size_t count, std::size_t limit) {
 /// Moves robots that have arrived to the end, and the one whose goal is the oldest to the front.
 void order_for_horizon(const std::vector<Robot>& all, PriorityOrder& order) {
   // No search fails that may end with a wait, so no robot would be raised above one in its way for good.
-  const auto end =
-      std::stable_partition(order.begin(), order.end(), [&](auto i) { return !has_arrived(all[i]); });
+  const auto end = std::stable_partition(order.begin(), order.end(),
+                                         [&](auto i) { return all[i].yields() || !has_arrived(all[i]); });
   const auto oldest = std::min_element(order.begin(), end, [&](auto a, auto b) {
     return std::tuple(-all[a].goal_age, -all[a].weight, a) < std::tuple(-all[b].goal_age, -all[b].weight, b);
   });

@@ -111,11 +111,12 @@ class Triage {
   std::vector<std::optional<Unplanned>> run() {
     for (std::size_t i = 0; i < instance_.size(); ++i) {
       starts_.add(i, place(i));
-      if (instance_.robot(i).goal) goals_.add(i, instance_.robot(i).goal->position);
+      if (instance_.robot(i).goal && !instance_.robot(i).is_idle())
+        goals_.add(i, instance_.robot(i).goal->position);
       if (instance_.robot(i).invalid) {
         unplanned_[i] = unplanned_invalid(i);
         stay(i);
-      } else if (!instance_.robot(i).goal) {
+      } else if (!instance_.robot(i).goal || (instance_.robot(i).is_idle() && !may_leave(i))) {
         stay(i);
       }
     }
@@ -130,8 +131,12 @@ class Triage {
   template <class Check>
   void for_each_robot(Check&& check) {
     for (std::size_t i = 0; i < instance_.size() && !stop_.met(); ++i) {
-      if (!stays_[i] && !is_kept(i)) check(i);
+      if (!stays_[i] && !is_kept(i) && !instance_.robot(i).is_idle()) check(i);
     }
+  }
+  bool may_leave(std::size_t robot) {
+    const bool is_free = instance_.fits_at_start(robot) || state_.can_leave_start(robot, stop_);
+    return is_free && !instance_.contacts().too_many(robot);
   }
   bool is_kept(std::size_t robot) const { return !kept_.empty() && kept_[robot]; }
   /// The place where the robot is when its plan begins, and where it stays without one.
@@ -175,8 +180,11 @@ class Triage {
     }
     // If the inflated goals of two robots overlap, the one with a plan is planned, or the first one in the
     // list.
-    auto others =
-        overlapping_at_goal(goals_, i, [&](std::size_t j) { return (j < i || is_kept(j)) && !stays_[j]; });
+    // A robot that yields leaves its last goal again.
+    if (instance_.robot(i).yields()) return;
+    auto others = overlapping_at_goal(goals_, i, [&](std::size_t j) {
+      return (j < i || is_kept(j)) && !stays_[j] && !instance_.robot(j).yields();
+    });
     if (others.empty()) return;
     give_up(i, Reason::goal_blocked, "The inflated robot overlaps another one's goal at its goal.",
             std::move(others));
@@ -202,7 +210,7 @@ class Triage {
   /// Makes robots stay whose goal is occupied by a robot that stays, until nothing changes.
   void check_goals_occupied() {
     for (std::size_t i = 0; i < instance_.size(); ++i) {
-      if (!stays_[i] && !is_kept(i)) next_.insert(i);
+      if (!stays_[i] && !is_kept(i) && !instance_.robot(i).is_idle()) next_.insert(i);
     }
     while (!next_.empty() && !stop_.met()) {
       current_ = std::exchange(next_, {});

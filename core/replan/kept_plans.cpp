@@ -264,7 +264,7 @@ Plan plan_without_search(const Problem& problem, const PlanOptions& options, con
       plan.unplanned.push_back(unplanned_invalid(index));
       continue;
     }
-    if (robot.goal && !previous.contains(index)) {
+    if (robot.goal && !robot.is_idle() && !previous.contains(index)) {
       plan.unplanned.push_back({index, Unplanned::Reason::budget_exhausted, detail, {}});
       continue;
     }

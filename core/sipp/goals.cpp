@@ -53,6 +53,7 @@ IndexedVector<Stage> stages_of(SearchSpace& space, const StopCondition& stop) {
     stage.service = goal.service;
     stage.not_before = goal.not_before;
     stage.after = goal.service;
+    stage.is_anywhere = goal.anywhere;
     stage.radius_changes = space.changes_radius() && space.radius(index) != space.radius(index + 1);
     if (k < last) stage.after += estimated_leg(space, index, stop) + stages[k + 1].after;
   }
@@ -136,7 +137,8 @@ Goals::Goals(SearchSpace& space, double horizon, SearchState& state)
       horizon_(horizon),
       state_(state),
       changes_radius_(space.changes_radius()),
-      last_stage_(static_cast<int>(space.goal_count()) - (space.rests_with_other_radius() ? 0 : 1)) {}
+      last_stage_(static_cast<int>(space.goal_count()) - (space.rests_with_other_radius() ? 0 : 1)),
+      ends_anywhere_(space.itinerary().goals.back().anywhere) {}
 
 bool Goals::begin(const StopCondition& stop) {
   stages_ = stages_of(space_, stop);
@@ -146,6 +148,10 @@ bool Goals::begin(const StopCondition& stop) {
 
 bool Goals::end_at(PlaceId place) {
   last_ = place;
+  if (ends_anywhere_) {
+    set_releases(stages_, 0.0);
+    return true;
+  }
   const Place& goal = state_.places[place];
   const bool stays_free = !goal.never_safe() && state_.intervals[goal.end_interval - 1].end == kForever;
   const double free_from = stays_free ? state_.intervals[goal.end_interval - 1].begin : kForever;

@@ -31,6 +31,7 @@ struct Stage {
   Footprint footprint;
   bool radius_changes = false;  // at the end of this stage
   bool is_rest = false;         // after the last service, with another radius
+  bool is_anywhere = false;     // the goal is any place where the robot may stay
 
   double service_end(double t_rest) const { return std::max(t_rest, not_before) + service; }
 };
@@ -56,7 +57,7 @@ class Goals {
   /// Makes the stages of a pass; false if `stop` is met first.
   bool begin(const StopCondition& stop);
   /// Makes this place, the last goal in the last stage, the end of all paths. Returns whether the robot may
-  /// stay there from some time on or, with a horizon, somewhere else.
+  /// stay there from some time on or, with a horizon or a last goal that is anywhere, somewhere else.
   bool end_at(PlaceId place);
   /// Whether the goal of a stage, which is this place, is ever free for long enough to be served.
   bool can_serve(int stage, const Place& place) const;
@@ -71,7 +72,8 @@ class Goals {
 
   /// Whether a robot that is here in this interval has reached its end.
   bool is_end(PlaceId place, int interval) const {
-    return place == last_ && state_.intervals[interval].end == kForever;
+    const bool is_last = place == last_ || (ends_anywhere_ && state_.places[place].stage == last_stage_);
+    return is_last && state_.intervals[interval].end == kForever;
   }
 
   /// The service of a robot that has this label at the goal of its stage.
@@ -110,6 +112,7 @@ class Goals {
   SearchState& state_;
   const bool changes_radius_;
   const int last_stage_;
+  const bool ends_anywhere_;  // in the last stage
   IndexedVector<Stage> stages_;
   PlaceId last_ = PlaceId::none;
 };

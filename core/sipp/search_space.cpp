@@ -75,6 +75,10 @@ Vertices::Vertices(const Instance& instance, std::size_t robot, std::size_t stag
       }
     }
     const Goal& goal = goals[k];
+    if (goal.anywhere) {  // wherever the robot comes to this stage
+      goals_.push_back({goals_.empty() ? start_ : goals_.back().vertex, std::nullopt});
+      continue;
+    }
     const bool is_here = instance.motion(robot, k).radius == motion_.radius ||
                          instance.motion(robot, k + 1).radius == motion_.radius;
     const bool at_start = start_ >= 0 && (goal.position - start_pose_.position).norm() <= same;

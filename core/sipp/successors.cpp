@@ -28,7 +28,9 @@ PlaceId Successors::place_of(int vertex, int stage) {
   Place place{
       vertex, stage, number, vertices(stage).position(vertex), {}, false, state_.intervals.next_index(),
       0,      latest};
-  if (vertex != at.goal.vertex) {
+  if (at.is_anywhere) {
+    place.any_heading = true;
+  } else if (vertex != at.goal.vertex) {
     place.estimate = space_.cost_to_go(static_cast<std::size_t>(stage)).from(vertex, stop_);
     place.estimate.seconds += at.after;
     place.estimate.reverse_seconds += at.after;

@@ -265,7 +265,9 @@ class Arrivals {
         is_in_pose(itinerary.pose, itinerary.goals.front())) {
       own.rested = itinerary.arrived;
     }
-    for (const Goal& goal : itinerary.goals) visit(goal, own.at_end, own.steps);
+    for (const Goal& goal : itinerary.goals) {
+      if (!goal.anywhere) visit(goal, own.at_end, own.steps);
+    }
     own.kind = legs_.kind_of(index, own.at_end.radius);
     return own;
   }

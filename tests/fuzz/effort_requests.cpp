@@ -166,6 +166,11 @@ void add_members(Json& request, Choices& choices) {
   const int goals = choices.up_to(200);
   Json& robots = request["robots"];
   if (options.contains("horizon")) robots[0]["goal_age"] = 60.0;
+  const int idle = choices.up_to(3);
+  for (std::size_t k = 0; idle > 0 && k < robots.size(); k += 1 + static_cast<std::size_t>(idle)) {
+    robots[k]["idle"] = choices.one_of(std::array{"stay", "yield", "return"});
+    if (choices.yes()) robots[k].erase("goal");
+  }
   const bool are_due = choices.yes();
   if (are_due) options["objective"] = "tardiness";
   for (std::size_t k = 0; are_due && k < robots.size(); ++k) {

@@ -92,7 +92,7 @@ ParsedGoals parse_goals(const JsonReader& robot, const WorldFrame& frame, Quota&
 
 namespace {
 
-constexpr std::array<std::string_view, 20> kRobotMembers{"id",
+constexpr std::array<std::string_view, 21> kRobotMembers{"id",
                                                          "radius",
                                                          "linear_speed",
                                                          "angular_speed",
@@ -109,9 +109,11 @@ constexpr std::array<std::string_view, 20> kRobotMembers{"id",
                                                          "goals",
                                                          "goal_age",
                                                          "weight",
+                                                         "idle",
                                                          "committed",
                                                          "previous",
                                                          "metadata"};
+constexpr std::array<std::string_view, 3> kIdle{"stay", "yield", "return"};  // see Idle
 constexpr std::array<std::string_view, 11> kDefaults{"radius",
                                                      "linear_speed",
                                                      "angular_speed",
@@ -254,6 +256,7 @@ class RobotReader {
     read.placed = owner.start && traits.radius.value;
     read_goals(json, read);
     read_actions(json, owner, read);
+    read_idle(json.find("idle"), read);
     return read;
   }
 
@@ -267,6 +270,18 @@ class RobotReader {
     read.robot.goal = goals.goals.back();
     goals.goals.pop_back();
     read.robot.via = std::move(goals.goals);
+  }
+
+  /// A robot that comes back without a goal of its own has one where its plan begins.
+  static void read_idle(const JsonReader& json, ParsedRobot& read) {
+    const auto word = json.word(kIdle);
+    if (!word) return;
+    read.idle = static_cast<Idle>(*word);
+    core::Robot& robot = read.robot;
+    if (read.idle == Idle::yield) robot.let_yield();
+    if (read.idle != Idle::come_back || robot.goal) return;
+    robot.goal = core::Goal{robot.committed_end().position, robot.committed_end().theta};
+    read.goals = {read.start};
   }
 
   void read_actions(const JsonReader& json, const ActionsOwner& owner, ParsedRobot& read) {

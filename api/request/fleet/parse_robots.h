@@ -3,6 +3,7 @@
 // The robots of a request, with their goals, and their names.
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -39,6 +40,9 @@ std::optional<core::Goal> parse_plain_pose(const JsonReader& pose, const WorldFr
 /// the goals of the request.
 ParsedGoals parse_goals(const JsonReader& robot, const WorldFrame& frame, Quota& quota);
 
+/// What a robot does that has no goal, or has served its last one.
+enum class Idle : std::uint8_t { stay, yield, come_back };
+
 /// A robot as far as it could be read. `placed`: whether its radius and start are valid, so that it can be
 /// compared with the map and the other robots, whatever faults it has elsewhere.
 struct ParsedRobot {
@@ -55,6 +59,8 @@ struct ParsedRobot {
   std::optional<double> execution_margin;  // metres
   double stop_distance = 0.0;              // metres that it drives until it stands, see /v1/advance
   std::optional<double> body_radius = {};  // metres, of the robot itself, if it is planned with another one
+  /// If given; what it means for the plan is in the goals of the robot.
+  std::optional<Idle> idle = {};
 };
 
 /// Reads `robots` and `robot_defaults` (may be absent): at least one robot, and not more robots, goals and

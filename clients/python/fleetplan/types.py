@@ -223,6 +223,7 @@ class Robot(RobotDefaults, total=False):
     goals: list[Goal]
     goal_age: float
     weight: float
+    idle: Literal["stay", "yield", "return"]
     committed: list[Action]
     previous: list[Action]
     metadata: Metadata

@@ -180,7 +180,7 @@ std::optional<std::size_t> ZonesOfRobot::first_goal_put_off(const Robot& robot, 
   if (!may_leave_any_) return std::nullopt;
   double arrives = robot.radius;
   // Bounded: each goal once, and the corners of the zones, which a request may have.
-  for (std::size_t k = 0; k < robot.goal_count(); ++k) {
+  for (std::size_t k = 0; k < robot.own_goal_count(); ++k) {
     const double leaves = robot.goal_at(k).radius_after.value_or(arrives);
     const double kept = std::max(arrives, leaves) - tolerance;
     if (k >= first && distance_to_leave(robot.goal_at(k).position, kept) < kept) return k;
