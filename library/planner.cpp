@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/model/objective_share.h"
 #include "core/replan/kept_plans.h"
 #include "core/runtime/executor.h"
 #include "core/runtime/stop_condition.h"

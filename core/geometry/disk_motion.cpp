@@ -90,7 +90,8 @@ bool collide(const MovingDisk& a, const MovingDisk& b, double reach) {
   const double begin = std::max(a.t_start, b.t_start);
   const double end = std::min(a.t_end, b.t_end);
   if (begin > end) return false;
-  if (have_ramps(a, b)) return comes_near(relative_motion(a, b), reach);
+  if (have_ramps(a, b)) [[unlikely]]
+    return comes_near(relative_motion(a, b), reach);
   const Position q = a.at(begin) - b.at(begin);
   const Position v = a.velocity - b.velocity;
   const double qq = q.squaredNorm();

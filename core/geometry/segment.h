@@ -82,6 +82,15 @@ struct TimedSegment {
             t_end,
             (1.0 + ramp - speed) / (1.0 + ramp + speed)};
   }
+  /// The part until `t`, which is within it.
+  TimedSegment until_time(double t) const {
+    const double elapsed = (t - t_start) / duration();
+    const double speed = 1.0 - ramp * (1.0 - 2.0 * elapsed);
+    return {{path.from, path.at(covered_share(elapsed, ramp))},
+            t_start,
+            t,
+            (speed - 1.0 + ramp) / (speed + 1.0 - ramp)};
+  }
   /// The mean velocity, metres per second.
   Position velocity() const {
     const double d = duration();

@@ -4,12 +4,6 @@
 
 namespace fleetplan::core {
 
-double Inertia::limited_time(double distance, double speed) const {
-  const double mean = 0.5 * (rise + fall);
-  if (distance >= speed * speed * mean) return distance / speed + speed * mean;
-  return 2.0 * std::sqrt(distance * mean);
-}
-
 namespace {
 
 /// The fastest profile between two speeds that the length allows.

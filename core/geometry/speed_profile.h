@@ -21,12 +21,14 @@ struct Inertia {
 
   /// Seconds from rest to rest over a distance (metres or radians, >= 0) at this greatest speed.
   double time(double distance, double speed) const {
-    return any() ? limited_time(distance, speed) : distance / speed;
+    if (!any()) [[likely]]
+      return distance / speed;
+    const double mean = 0.5 * (rise + fall);
+    return distance >= speed * speed * mean ? distance / speed + speed * mean
+                                            : 2.0 * std::sqrt(distance * mean);
   }
   /// The part of that time that starting and stopping take; it never falls with the distance.
   double loss(double distance, double speed) const { return time(distance, speed) - distance / speed; }
-  /// time(), with a limit; not inline, so that searches without limits stay small.
-  double limited_time(double distance, double speed) const;
 };
 
 /// The speed of one action, metres (or radians) per second. cruise >= start, end.

@@ -53,8 +53,12 @@ std::vector<SizedSegment> until_time(double t, std::vector<SizedSegment> segment
   std::erase_if(segments, [&](const SizedSegment& segment) { return segment.t_start >= t; });
   if (!segments.empty() && segments.back().t_end > t) {
     SizedSegment& last = segments.back();
-    last.path.to = last.path.from + last.velocity() * (t - last.t_start);
-    last.t_end = t;
+    if (last.ramp == 0.0) {
+      last.path.to = last.path.from + last.velocity() * (t - last.t_start);
+      last.t_end = t;
+    } else {
+      static_cast<TimedSegment&>(last) = last.until_time(t);
+    }
   }
   return segments;
 }

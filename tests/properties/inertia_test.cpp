@@ -10,17 +10,17 @@
 #include <cstdlib>
 #include <vector>
 
-#include "core/model/itinerary.h"
 #include "core/planner.h"
 #include "tests/support/expect_bounds.h"
 #include "tests/support/expect_safe.h"
 #include "tests/support/random_zones.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/summary.h"
 
 namespace fleetplan::core {
 namespace TEST_FILE {
 
-constexpr int kRuns = 200;
+constexpr int kRuns = support::kSanitized ? 60 : 200;
 constexpr double kStep = 1e-3;       // seconds, of the integration
 constexpr double kPositions = 1e-3;  // metres, in which the integration and the plan agree
 

@@ -125,7 +125,7 @@ TEST(SpeedProfile, PhasesAreContiguousAndChangeSpeedEvenly) {
   }
 }
 
-TEST(TimedSegment, FromATimeOnGoesWhereItWent) {
+TEST(TimedSegment, BeforeAndAfterATimeGoesWhereItWent) {
   support::Dice dice(kSeed);
   for (int k = 0; k < 1000; ++k) {
     TimedSegment whole{
@@ -134,6 +134,9 @@ TEST(TimedSegment, FromATimeOnGoesWhereItWent) {
     const TimedSegment rest = whole.from_time(t);
     const double later = dice.between(t, 5.0);
     ASSERT_LT((MovingDisk(whole).at(later) - MovingDisk(rest).at(later)).norm(), 1e-12);
+    const TimedSegment before = whole.until_time(t);
+    const double earlier = dice.between(2.0, t);
+    ASSERT_LT((MovingDisk(whole).at(earlier) - MovingDisk(before).at(earlier)).norm(), 1e-12);
   }
 }
 
