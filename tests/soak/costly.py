@@ -277,6 +277,35 @@ def report_of_many_actions(count):
     return orders_of_a_long_leg(messages=[message], progress=[progress])
 
 
+def many_places(count, **more):
+    """Poses all over a map of a million cells with a comb of walls, from each of which there is a way to each other one."""
+    rows = ["." * 1000 if row % 4 else "#" * 999 + "." if row % 8 else "." + "#" * 999 for row in range(1000)]
+    places = [{"x": 0.5 + 37 * k % 997, "y": 4 * (61 * k % 249) + 1.5} for k in range(count)]
+    return {"map": {"rows": rows}, "options": {"time_budget_ms": 1000}, **more}, places
+
+
+def travel_times(count):
+    body, places = many_places(count)
+    return {**body, "robot": ROBOT, "from": places, "to": places}
+
+
+def many_tasks(count):
+    """Tasks for one robot: as many as a body can have."""
+    robots = [{"id": "a", "start": {"x": 1.5, "y": 1.5}}]
+    return {"request": {"map": {"rows": ["." * 8] * 8}, "robot_defaults": ROBOT, "robots": robots,
+                        "options": {"time_budget_ms": 300}},
+            "tasks": [{"id": f"t{k}", "goals": [{"x": 1.5 + k % 5, "y": 4.5}]} for k in range(count)]}
+
+
+def robots_that_accelerate():
+    """1000 robots that cross each other's ways, with short changes of speed."""
+    robots = [{"id": f"r{i}", "start": place, "goal": {"x": 128.0 - place["x"], "y": 128.0 - place["y"]}}
+              for i, place in enumerate(grid(32, 1000, 4.0))]
+    accelerations = {"linear_acceleration": 0.5, "linear_deceleration": 0.3, "angular_acceleration": 1.0}
+    return {"map": {"rows": ["." * 128] * 128}, "robots": robots, "robot_defaults": {**ROBOT, **accelerations},
+            "options": {"time_budget_ms": 1000}}
+
+
 def chunk(kind, data):
     """A chunk of a PNG."""
     return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
@@ -357,6 +386,12 @@ def costly_requests():
                answered_or_unfinished("orders")),
         Costly("reports of 100,000 actions", posted(report_of_many_actions(100_000), "/v1/import/vda5050"), 1.5, 400,
                answered_or_unfinished("states")),
+        Costly("250,000 travel times", posted(travel_times(500), "/v1/matrix"), 1.0, 400,
+               answered_or_unfinished("seconds")),
+        Costly("200,000 tasks", posted(many_tasks(200_000), "/v1/assign"), 1.5, 500,
+               refused("parse_unfinished", "check_unfinished", "memory_exceeded")),
+        Costly("1000 robots that accelerate", posted(robots_that_accelerate()), 1.0, 300,
+               planned(["solved", "partial", "none"])),
     ]
 
 
