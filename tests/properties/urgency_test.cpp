@@ -85,7 +85,9 @@ TEST_P(Urgency, ImprovementNeverMakesTheObjectiveWorse) {
                              ? 1e-4 * std::abs(value_by_visits(first, *problem, Objective::flowtime) -
                                                value_by_visits(better, *problem, Objective::flowtime))
                              : 0.0;
-    if (better.search.attempts == first.search.attempts) EXPECT_LE(after, before + slack + 1e-6);
+    if (better.search.attempts == first.search.attempts) {
+      EXPECT_LE(after, before + slack + 1e-6);
+    }
     if (after < before - 1e-6) ++improved;
   }
   EXPECT_GT(improved, 0);
