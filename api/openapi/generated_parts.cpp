@@ -158,8 +158,8 @@ constexpr std::array<Example, 22> kExamples{{
      "--cors-origin."},
     {ErrorCode::not_found,
      "There is no example 'corridor'; there are: charging-docks, corridor-swap, crossing, crossing-people, "
-     "hall-100, hospital-ward, hospital-wing, lab-polygon, late-pallet, office-floor, partly-solvable, "
-     "rush-hour, warehouse."},
+     "hall-100, hospital-ward, hospital-wing, lab-polygon, late-pallet, office-floor, parking, "
+     "partly-solvable, rush-hour, warehouse."},
     {ErrorCode::method_not_allowed, "'/v1/plan' allows POST, not 'GET'."},
     {ErrorCode::not_acceptable,
      "Answers are application/json or text/event-stream, which Accept: 'text/html' excludes: add "

@@ -73,14 +73,13 @@ core::Disturbance parse_disturbance(const JsonReader& member) {
 
 // The members of a request to simulate, then those that answers of /v1/plan, /v1/advance and /v1/assign add,
 // which are ignored.
-constexpr std::array<std::string_view, 34> kSimulateRequestMembers{
-    "map",         "robot_defaults", "robots",     "obstacles",       "zones",
-    "options",     "plans",          "policy",     "max_delay",       "disturbance",
-    "runs",        "seed",           "trace",      "dependencies",    "tight",
-    "unavoidable", "status",         "request_id", "unplanned",       "flowtime",
-    "makespan",    "lower_bound",    "verified",   "min_clearance",   "deterministic",
-    "search",      "timings_ms",     "warnings",   "lattice_spacing", "metadata",
-    "estimated",   "progress",       "assigned",   "unassigned"};
+constexpr std::array<std::string_view, 35> kSimulateRequestMembers{
+    "map",           "robot_defaults", "robots",    "obstacles",       "zones",       "options",
+    "plans",         "policy",         "max_delay", "disturbance",     "runs",        "seed",
+    "trace",         "dependencies",   "tight",     "unavoidable",     "status",      "request_id",
+    "unplanned",     "flowtime",       "makespan",  "objective_value", "lower_bound", "verified",
+    "min_clearance", "deterministic",  "search",    "timings_ms",      "warnings",    "lattice_spacing",
+    "metadata",      "estimated",      "progress",  "assigned",        "unassigned"};
 
 // In the order of core::ExecutionPolicy.
 constexpr std::array<std::string_view, 4> kPolicies{"open_loop", "absorb_waits", "dependencies",

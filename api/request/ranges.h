@@ -28,7 +28,7 @@ inline constexpr Range kSlackInTime{1e-3, kLongestTime, "seconds"};  // slack of
 inline constexpr Range kAnyAngle{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max(),
                                  "radians"};
 inline constexpr Range kWeight{kLeastWeight, kMostWeight, ""};  // of robots and tasks
-inline constexpr Range kFraction{0.0, 1.0, ""};  // fraction of an action
+inline constexpr Range kFraction{0.0, 1.0, ""};                 // fraction of an action
 /// The greatest number of an action or a goal of a robot; far beyond any limit of a request.
 inline constexpr std::uint64_t kGreatestIndex = 1'000'000'000;
 

@@ -39,9 +39,10 @@ struct OrderingResult {
 ///    and are at least as large, and if that fails, among only those that stay at their starts.
 /// 3. The trajectories that conflict with its own are removed, and their robots are planned again.
 ///
-/// Before that, a robot that fails, or gains nothing within the horizon, is planned past those that yield
-/// (Robot::yields), as if they left when they have served their goals; those that are in its way are planned
-/// again. So nobody moves unless another one needs the place. One that cannot make way stays.
+/// Before that, a robot that fails, gains nothing within the horizon, or costs much more than alone is
+/// planned past those that yield (Robot::yields), as if they left when they have served their goals; if it
+/// gains more by that than they lose, those that are in its way are planned again. So nobody moves for
+/// nothing. One that cannot make way stays.
 ///
 /// After several failures the fleet counts as a dense crowd: then a failed robot is not raised, but planned
 /// so that it conflicts with few others (EjectionSearch), and those are planned next.

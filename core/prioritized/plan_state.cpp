@@ -462,6 +462,14 @@ bool PlanState::takes_too_long(std::size_t robot, const StopCondition& stop) {
   });
 }
 
+double PlanState::estimated_alone(std::size_t robot, const StopCondition& stop) {
+  return within_memory(kForever, [&] {
+    SearchSpace* space = search_spaces_.of(robot, stop);
+    const double end = space != nullptr ? estimated_end(*space, stop) : 0.0;
+    return end > 0.0 ? end : kForever;
+  });
+}
+
 Trajectory PlanState::plan_alone(std::size_t robot, const StopCondition& stop) {
   const OccupancyGrid& grid = instance_.problem().grid();
   const double cell_size = grid.width();  // coarse, as the table stays empty

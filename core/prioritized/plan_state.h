@@ -109,6 +109,8 @@ class PlanState {
   std::int64_t map_expansions() const { return map_expansions_; }
   /// Whether the way to the robot's goal, alone on the map, takes longer than any plan may.
   bool takes_too_long(std::size_t robot, const StopCondition& stop);
+  /// Estimates its cost, alone on the map, seconds; kForever if `stop` is met first.
+  double estimated_alone(std::size_t robot, const StopCondition& stop);
   /// The trajectory of the robot alone on the map; it stays at its start if there is none.
   Trajectory plan_alone(std::size_t robot, const StopCondition& stop);
 

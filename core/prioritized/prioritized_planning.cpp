@@ -99,7 +99,7 @@ class PrioritizedPlanning {
     const OnStop keep_plan = [this](const auto& unsolved, const auto& given_up) {
       return keep_safe_plan(unsolved, given_up);
     };
-    if (reordering == PlanOptions::Reordering::random || tries_all_orders()) {
+    if (restarts()) {
       return plan_with_restarts(state_, order_, random_, stop_, progress_, keep_plan);
     }
     return repair_or_restart(state_, order_, random_, stop_, progress_, keep_plan);
@@ -124,13 +124,18 @@ class PrioritizedPlanning {
     best_ = KeptPlan{std::move(plan), state_.reservations()};
   }
 
-  /// Robots that yield make way without another order.
-  bool tries_all_orders() const { return order_.size() <= kFewRobots && !state_.any_yields(); }
+  bool has_few_robots() const { return order_.size() <= kFewRobots; }
+  /// Whether other orders are tried from the beginning. Robots that yield make way for others in no order:
+  /// they are asked to in repairs.
+  bool restarts() const {
+    const auto reordering = state_.instance().options().reordering;
+    return !state_.any_yields() && (reordering == PlanOptions::Reordering::random || has_few_robots());
+  }
 
   bool other_orders_may_help(const OrderingResult& ordering) const {
     const auto reordering = state_.instance().options().reordering;
-    return reordering == PlanOptions::Reordering::raise_failed && !tries_all_orders() &&
-           ordering.hopeless.size() < ordering.given_up.size();
+    return reordering == PlanOptions::Reordering::raise_failed &&
+           (!has_few_robots() || state_.any_yields()) && ordering.hopeless.size() < ordering.given_up.size();
   }
 
   /// Plans in random orders as long as a robot that is not hopeless stays.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <utility>
@@ -74,6 +75,7 @@ class Repair {
         lowest_rank_(static_cast<std::int64_t>(order_.size())),
         failures_(state.instance().size(), 0),
         asks_(state.instance().size(), 0),
+        cannot_make_way_(state.instance().size(), false),
         ejection_(state, random, stop) {
     for (std::size_t k = 0; k < order_.size(); ++k) rank_[order_[k]] = static_cast<std::int64_t>(k);
   }
@@ -96,12 +98,15 @@ class Repair {
       pending_.erase(pending_.begin());
       state_.remove(robot);
       SearchResult result = plan_quickly(robot);
-      if (is_held_up(robot, result) && passes_yielding(robot)) continue;
+      if (is_held_up(robot, result) && passes_yielding(robot, result)) continue;
       if (result.trajectory) {
         state_.follow(robot, std::move(*result.trajectory));
         continue;
       }
-      if (has_failed(robot, result)) result = plan_failed(robot);
+      if (has_failed(robot, result)) {
+        if (state_.instance().robot(robot).yields()) cannot_make_way_[robot] = true;
+        result = plan_failed(robot);
+      }
       if (result.trajectory) {
         follow_and_postpone_conflicting(robot, std::move(*result.trajectory));
       } else if (result.complete) {
@@ -177,20 +182,52 @@ class Repair {
            (result.complete || result.expansions >= quick_search_of(robot).max_expansions);
   }
 
-  /// Whether robots that yield may be what keeps this one from its goals.
-  bool is_held_up(std::size_t robot, const SearchResult& result) const {
-    if (!state_.any_yields() || asks_[robot] >= kMostAsksForRobot) return false;
-    return has_failed(robot, result) || (result.trajectory && result.trajectory->gains_nothing);
+  /// The cost of making way, about, seconds: there and back over a few radii, with two turns.
+  double cost_of_making_way(std::size_t robot) const {
+    constexpr double kRadii = 4.0;
+    const Motion& motion = state_.instance().motion(robot);
+    return motion.translation_time(kRadii * motion.pair_radius) +
+           2.0 * motion.rotation_time(0.0, std::numbers::pi);
   }
 
-  /// Plans a robot past those that yield. Of these, the ones in its way are planned again, and those that
-  /// have nothing else to do after all others. Returns whether it has a plan now.
-  bool passes_yielding(std::size_t robot) {
+  /// Whether robots that yield may be what keeps this one from its goals, or makes it late.
+  bool is_held_up(std::size_t robot, const SearchResult& result) {
+    if (!state_.any_yields() || asks_[robot] >= kMostAsksForRobot) return false;
+    if (!result.trajectory) return has_failed(robot, result);
+    if (result.trajectory->gains_nothing) return true;
+    const double in_time = state_.estimated_alone(robot, stop_) + cost_of_making_way(robot);
+    return result.trajectory->cost > in_time;
+  }
+
+  /// What the robot may cost at most, past those that yield, to be worth it for one of them.
+  double most_cost(std::size_t robot, const SearchResult& in_place) const {
+    if (!in_place.trajectory || in_place.trajectory->gains_nothing) return kForever;
+    return in_place.trajectory->cost - cost_of_making_way(robot);
+  }
+
+  /// Whether the robots that would have to make way can do so, as far as is known, and cost less than it is
+  /// worth. `saved`: seconds.
+  bool is_worth(double saved, const std::vector<std::size_t>& asked) const {
+    for (const std::size_t other : asked) {
+      if (cannot_make_way_[other]) return false;
+      saved -= cost_of_making_way(other);
+    }
+    return saved >= 0.0;
+  }
+
+  /// Plans a robot past those that yield, if that is worth it compared to its trajectory around them. Of
+  /// these, the ones in its way are planned again, and those that have nothing else to do after all others.
+  /// Returns whether it has a plan now.
+  bool passes_yielding(std::size_t robot, const SearchResult& in_place) {
     ++asks_[robot];
-    SearchResult result = state_.plan_past_yielding(robot, quick_search_of(robot), stop_);
+    SearchLimits limits = quick_search_of(robot);
+    limits.bound = most_cost(robot, in_place);
+    SearchResult result = state_.plan_past_yielding(robot, limits, stop_);
     if (!result.trajectory || result.trajectory->gains_nothing) return false;
     const std::vector<std::size_t> asked = state_.conflicting_robots(robot, *result.trajectory);
-    if (comes_after(robot, asked)) return true;
+    const bool needs = limits.bound == kForever;
+    if (!needs && !is_worth(in_place.trajectory->cost - result.trajectory->cost, asked)) return false;
+    if (comes_after(robot, asked, limits.bound)) return true;
     state_.follow(robot, std::move(*result.trajectory));
     for (const std::size_t other : asked) {
       if (!state_.trajectory(other)) continue;
@@ -202,7 +239,7 @@ class Repair {
 
   /// Plans others so that they leave the goal of this robot when they have been served, and then this one: so
   /// it does not wait in their way out. Returns whether it has a plan now; if not, nothing has changed.
-  bool comes_after(std::size_t robot, const std::vector<std::size_t>& others) {
+  bool comes_after(std::size_t robot, const std::vector<std::size_t>& others, double most_cost) {
     std::vector<std::pair<std::size_t, Trajectory>> before;
     for (const std::size_t other : others) {
       if (!state_.trajectory(other) || state_.instance().robot(other).is_idle()) continue;
@@ -213,7 +250,7 @@ class Repair {
     }
     if (before.empty()) return false;
     SearchResult result = plan_quickly(robot);
-    if (result.trajectory && !result.trajectory->gains_nothing) {
+    if (result.trajectory && !result.trajectory->gains_nothing && result.trajectory->cost < most_cost) {
       state_.follow(robot, std::move(*result.trajectory));
       return true;
     }
@@ -317,6 +354,7 @@ class Repair {
   std::int64_t lowest_rank_;
   std::vector<int> failures_;                 // by robot
   std::vector<int> asks_;                     // by robot: how often others were asked to make way for it
+  std::vector<bool> cannot_make_way_;         // by robot: it was asked, and failed
   std::optional<std::size_t> keeps_its_way_;  // a robot that gives way to nobody
   EjectionSearch ejection_;
   std::set<std::pair<std::int64_t, std::size_t>> pending_;  // rank, robot

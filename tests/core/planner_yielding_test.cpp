@@ -58,6 +58,19 @@ TEST(PlannerYielding, OthersGoRoundItWhereTheyCan) {
   EXPECT_TRUE(plan.plans[0].actions.empty());
 }
 
+TEST(PlannerYielding, MakesWayWhereTheWayRoundIsLong) {
+  const OccupancyGrid grid = support::ascii_map({".....................",  //
+                                                 ".###################.",  //
+                                                 ".###################.",  //
+                                                 ".###################.",  //
+                                                 ".###################.",  //
+                                                 "....................."});
+  const Plan plan = plan_of(grid, {robot_at(0.5, 0.5).to(20.5, 0.5), yielding(robot_at(19.5, 0.5))});
+  ASSERT_EQ(plan.plans.size(), 2U);
+  EXPECT_LT(plan.plans[0].cost, 22.0);
+  EXPECT_FALSE(plan.plans[1].actions.empty());
+}
+
 TEST(PlannerYielding, MakesWayInACorridor) {
   const Robot idle = yielding(robot_at(7.5, 0.5));
   const Plan plan = plan_of(corridor_with_bay(), {robot_at(0.5, 0.5).to(10.5, 0.5), idle});
@@ -146,11 +159,14 @@ TEST(PlannerYielding, OneThatYieldsSharesTheLastGoalOfOneThatStays) {
 
 TEST(PlannerYielding, WithAHorizonARobotThatIsStuckBehindItIsLetPass) {
   PlanOptions options;
-  options.horizon = 8.0;
-  const std::vector<Robot> robots{robot_at(4.5, 0.5).to(10.5, 0.5), yielding(robot_at(6.5, 0.5))};
-  const Plan plan = plan_of(corridor_with_bay(), robots, options);
+  options.horizon = 12.0;
+  const std::vector<Robot> robots{robot_at(0.5, 0.5).to(10.5, 0.5), yielding(robot_at(4.5, 0.5))};
+  const Problem problem = support::make_problem(corridor_with_bay(), robots);
+  const Plan plan = core::plan(problem, options, StopCondition::never());
+  EXPECT_TRUE(check_plan(problem, options, plan, StopCondition::never())->valid());
   ASSERT_EQ(plan.plans.size(), 2U);
   EXPECT_FALSE(plan.plans[0].is_stuck);
+  EXPECT_FALSE(plan.plans[1].actions.empty());
 }
 
 TEST(PlannerYielding, KeepsAPreviousPlanThatRestsElsewhere) {
@@ -166,7 +182,7 @@ TEST(PlannerYielding, KeepsAPreviousPlanThatRestsElsewhere) {
 
 TEST(PlannerYielding, MakesWayForCommittedMotion) {
   const Robot driver = robot_at(0.5, 0.5).drives(10.5, 0.5).to(10.5, 0.5);
-  const Plan plan = plan_of(corridor_with_bay(), {driver, yielding(robot_at(7.5, 0.5))});
+  const Plan plan = plan_of(corridor_with_bay(), {driver, yielding(robot_at(4.5, 0.5))});
   EXPECT_EQ(plan.plans.size(), 2U);
   EXPECT_TRUE(plan.unavoidable.empty()) << "it is out of the way in time";
 }

@@ -110,8 +110,8 @@ class Methods(Comparison):
     PLANS = {"request": {"map", "robots", "robot_defaults", "obstacles", "zones", "options", "metadata"},
              "plans": {"plans", "unavoidable", "dependencies"}}
     PARTS = {"request": {"robots", "robot_defaults", "options"}, "plans": {"plans", "dependencies"}}
-    ANSWERS = {"status", "request_id", "unplanned", "tight", "flowtime", "makespan", "lower_bound", "estimated", "verified",
-               "min_clearance", "deterministic", "lattice_spacing", "search", "timings_ms", "warnings", "metadata", "map",
+    ANSWERS = {"status", "request_id", "unplanned", "tight", "flowtime", "makespan", "objective_value", "lower_bound", "estimated",
+               "verified", "min_clearance", "deterministic", "lattice_spacing", "search", "timings_ms", "warnings", "metadata", "map",
                "progress", "assigned", "unassigned"}  # members that requests may have so that answers can be merged into them
 
     def compare_method(self, name, path, spread):

@@ -321,6 +321,27 @@ def charging_docks():
     }
 
 
+def parking():
+    """A warehouse of one-lane aisles. Robots without work stand where the last order left them."""
+    grid = Map(41, 17, 0.5)
+    for row in (2, 5, 8, 11, 14):  # shelves of two cells between aisles of one, a cross aisle at each end
+        for column in (3, 16, 29):
+            grid.block(column, row, 10, 2)
+    carriers = []
+    for number, (column, row, to_column, to_row) in enumerate([
+            (0, 1, 40, 13), (40, 4, 0, 10), (0, 7, 40, 7), (40, 10, 0, 4), (0, 13, 40, 1), (14, 0, 27, 16)]):
+        carriers.append(robot(f"carrier-{number + 1}", pose(*grid.center(column, row), 0.0),
+                              pose(*grid.center(to_column, to_row))))
+    idle = []
+    for number, (column, row) in enumerate([(7, 4), (21, 7), (34, 7), (9, 10), (33, 13), (40, 7), (20, 1), (0, 10)]):
+        idle.append(robot(f"idle-{number + 1}", pose(*grid.center(column, row), PI / 2), idle="yield"))
+    return {
+        "map": grid.json(),
+        "robot_defaults": {"radius": 0.24, "linear_speed": 1.0, "angular_speed": 2.0},
+        "robots": carriers + idle,
+    }
+
+
 def fleet_in(building, kinds, seed, boxes=()):
     """Robots of the kinds in turn, at random places of a building that do not block it for the widest."""
     widest = max(kind["radius"] for _, _, kind in kinds)
@@ -412,6 +433,8 @@ SCENARIOS = [  # in display order
      "Eight robots of three sizes and speeds meet at a crossing, with goal headings; improved for 100 iterations."),
     ("charging-docks", "Charging docks", charging_docks,
      "Charged robots leave their docks while empty ones come for them; the makespan is improved."),
+    ("parking", "Parking", parking,
+     "Carriers cross a warehouse in which idle robots stand; those that are in the way yield, the others do not move."),
     ("hospital-ward", "Hospital ward", hospital_ward,
      "Carts, couriers and a bed in a corridor with parked carts; no robot stands on the lattice."),
     ("lab-polygon", "Laboratory polygon", lab_polygon,

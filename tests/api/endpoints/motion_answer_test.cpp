@@ -120,6 +120,81 @@ TEST(MotionAnswer, EstimatesHowLateRobotsAreBeyondTheHorizon) {
   EXPECT_DOUBLE_EQ(answer["objective_value"].get<double>(), visit["late_by"].get<double>());
 }
 
+/// Robot "a" passes a corridor with a bay, in which "b" stands.
+Json corridor_request() {
+  Json request = swap_request();
+  request["map"]["rows"] = {"#####.#####", "..........."};
+  request["map"]["resolution"] = 1.0;
+  request["robots"] = {{{"id", "a"}, {"start", pose(0.5, 0.5)}, {"goal", {{"x", 10.5}, {"y", 0.5}}}},
+                       {{"id", "b"}, {"start", pose(7.5, 0.5)}}};
+  return request;
+}
+
+/// The request of a moment of the answer.
+Json advanced_request(const Json& request, const Json& answer, double at) {
+  const Json body{{"request", request}, {"plans", answer["plans"]}, {"at", at}};
+  const Reply reply = advance_endpoint(body.dump(), {});
+  EXPECT_EQ(reply.status, 200) << reply.body;
+  return json_of(reply);
+}
+
+TEST(MotionAnswer, OfAnIdleRobotThatYieldsHasItsWay) {
+  Json request = corridor_request();
+  EXPECT_EQ(answer_of(request)["status"], "partial") << "by default it stays";
+  request["robots"][1]["idle"] = "yield";
+  const Json answer = answer_of(request);
+  ASSERT_EQ(answer["status"], "solved") << answer.dump();
+  const Json& yields = answer["plans"][1];
+  EXPECT_FALSE(yields.contains("visits"));
+  EXPECT_EQ(yields["actions"].back()["to"]["x"], 5.5) << "in the bay";
+  EXPECT_EQ(yields["cost"], yields["actions"].back()["t_end"]);
+  EXPECT_EQ(verdict_of(request, answer)["violations"], Json::array());
+  const Json later = advanced_request(request, answer, answer["makespan"].get<double>() + 1.0);
+  EXPECT_FALSE(later["robots"][1].contains("goal"));
+  EXPECT_FALSE(later["robots"][1].contains("goals"));
+  EXPECT_EQ(later["robots"][1]["idle"], "yield");
+  EXPECT_EQ(answer_of(later)["plans"][1]["actions"], Json::array()) << "nobody needs the bay";
+}
+
+TEST(MotionAnswer, OfAnIdleRobotThatReturnsComesBack) {
+  Json request = corridor_request();
+  request["robots"][1]["idle"] = "return";
+  const Json answer = answer_of(request);
+  ASSERT_EQ(answer["status"], "solved") << answer.dump();
+  EXPECT_EQ(answer["plans"][1]["actions"].back()["to"]["x"], 7.5);
+  EXPECT_EQ(verdict_of(request, answer)["violations"], Json::array());
+  const Json later = advanced_request(request, answer, 6.0);
+  EXPECT_EQ(later["robots"][1]["goal"]["x"], 7.5) << "wherever it is at that moment";
+}
+
+TEST(MotionAnswer, RobotsThatYieldMayShareTheirLastGoal) {
+  Json request = swap_request();
+  for (Json& robot : request["robots"]) {
+    robot["goals"] = Json::array({{{"x", 4.5}, {"y", 3.5}, {"service", 5}}});
+    robot.erase("goal");
+    robot["idle"] = "yield";
+  }
+  const Json answer = answer_of(request);
+  ASSERT_EQ(answer["status"], "solved") << answer.dump();
+  for (const Json& plan : answer["plans"]) {
+    ASSERT_EQ(plan["visits"].size(), 1U);
+    EXPECT_TRUE(plan["visits"][0]["t_leave"].is_number());
+  }
+  EXPECT_EQ(verdict_of(request, answer)["violations"], Json::array());
+  const Json later = advanced_request(request, answer, answer["makespan"].get<double>() + 1.0);
+  for (const Json& robot : later["robots"]) EXPECT_FALSE(robot.contains("goals")) << "it has been served";
+}
+
+TEST(MotionAnswer, ARobotThatIsToStayHasNoGoalOnceItIsServed) {
+  Json request = swap_request();
+  request["robots"][0]["idle"] = "stay";
+  const Json answer = answer_of(request);
+  const Json later = advanced_request(request, answer, answer["makespan"].get<double>() + 1.0);
+  EXPECT_FALSE(later["robots"][0].contains("goal"));
+  EXPECT_TRUE(later["robots"][1].contains("goal"));
+  EXPECT_TRUE(advanced_request(request, answer, 1.0)["robots"][0].contains("goal"));
+}
+
 TEST(MotionAnswer, OfAnUnplannedRobotHasItsCommittedActions) {
   Json request = moving_request();
   request["robots"][0]["committed"].erase(1);

@@ -85,17 +85,19 @@ TEST(LargeNeighbourhoodSearch, LowersTheMakespanWithThatObjective) {
   expect_safe(p.state);
 }
 
-/// Two robots that meet head-on in a corridor with one bay.
-std::vector<Robot> meeting() { return {robot_at(0.5, 0.5).to(10.5, 0.5), robot_at(10.5, 0.5).to(0.5, 0.5)}; }
+/// Two robots that meet head-on in a corridor with a bay for either.
+std::vector<Robot> meeting() {
+  return {robot_at(0.5, 0.5).to(10.5, 0.5), robot_at(10.5, 0.5, 3.141592653589793).to(0.5, 0.5)};
+}
 
-OccupancyGrid corridor_with_bay() {
-  return support::ascii_map({"#####.#####",  //
+OccupancyGrid corridor_with_bays() {
+  return support::ascii_map({"###.###.###",  //
                              "..........."});
 }
 
 /// The costs of both robots after improvement.
 std::pair<double, double> improved_costs(std::vector<Robot> robots, Objective objective) {
-  Planning p(corridor_with_bay(), std::move(robots), iterations(60, objective));
+  Planning p(corridor_with_bays(), std::move(robots), iterations(60, objective));
   const auto movers = plan_first_solution(p);
   large_neighbourhood_search(p.state, movers, bounds_of(p), p.random, p.callers_thread, p.never);
   expect_safe(p.state);

@@ -106,6 +106,17 @@ INSTANTIATE_TEST_SUITE_P(
                          "due at 19.5 s, before its not_before, 20 s; make due at least not_before"},
                     Case{"NoWeight", [](Json& r) { robot(r, 0)["weight"] = 0; }, "/robots/0/weight",
                          "out_of_range", "0.001"},
+                    Case{"IdleMistyped", [](Json& r) { robot(r, 0)["idle"] = "yields"; }, "/robots/0/idle",
+                         "unknown_value", "did you mean \"yield\"?"},
+                    Case{"IdleIsTrue", [](Json& r) { robot(r, 0)["idle"] = true; }, "/robots/0/idle",
+                         "wrong_type", "\"stay\", \"yield\" or \"return\""},
+                    Case{"ReturnsToTheGoalOfAnother",
+                         [](Json& r) {
+                           robot(r, 1).erase("goal");
+                           robot(r, 1)["idle"] = "return";
+                           robot(r, 0)["goal"] = robot(r, 1)["start"];
+                         },
+                         "/robots/1/start", "goals_overlap", "overlap"},
                     Case{"WeightOfDefaults", [](Json& r) { r["robot_defaults"]["weight"] = 2; },
                          "/robot_defaults/weight", "unknown_key", "weight"},
                     Case{"NoRadius", [](Json& r) { robot(r, 0)["goal"]["radius_after"] = 0.0; },
