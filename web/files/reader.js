@@ -4,6 +4,7 @@
 import { asRows } from "../model/drawn_map.js";
 import { belongsTo, readDocument } from "../model/plan_file.js";
 import { FileError } from "../model/problem.js";
+import { megabytes } from "../ui/format.js";
 import { HEAD_BYTES, imageNamed, sortFiles } from "./file_kinds.js";
 import { checkMapOf, readMovingAiScenario } from "./movingai.js";
 import { RosMapDialog } from "./ros_dialog.js";
@@ -43,6 +44,7 @@ export class Reader {
     const sorted = sortFiles(files.map((file, at) => ({ name: file.name, head: heads[at], file })));
     switch (sorted.kind) {
       case "json":
+        for (const { file } of sorted.files) this.#checkSize(file);
         return this.#documents(
           await Promise.all(sorted.files.map(async ({ name, file }) => ({ name, text: await textOf(file) }))),
         );
@@ -53,6 +55,15 @@ export class Reader {
       default:
         return this.#rosMap(sorted, turn);
     }
+  }
+
+  /** Throws FileError for a document that the service would refuse by its size, which takes long to read. */
+  #checkSize({ name, size }) {
+    const most = this.#session.limits.max_body ?? Infinity;
+    if (size <= most) return;
+    throw new FileError(
+      `${name} has ${megabytes(size)}, and the service accepts at most ${megabytes(most)}.`,
+    );
   }
 
   /** What a JSON text contains. Throws FileError. */

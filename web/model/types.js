@@ -124,6 +124,7 @@
  * @property {number} [max_budget_ms]
  * @property {number} [max_robots]
  * @property {number} [max_cells]
+ * @property {number} [max_body] bytes
  */
 
 /** @typedef {{flowtime: number, makespan: number}} Costs */

@@ -16,6 +16,9 @@ export function metres(value) {
   return `${value.toFixed(2)} m`;
 }
 
+/** Bytes, in words. */
+export const megabytes = (bytes) => `${(bytes / 1e6).toLocaleString("en", { maximumFractionDigits: 1 })} MB`;
+
 export const count = (value, one, many = `${one}s`) =>
   `${value.toLocaleString("en")} ${value === 1 ? one : many}`;
 
