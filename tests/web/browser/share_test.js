@@ -108,7 +108,7 @@ test("an animation is encoded picture by picture, with its duration, and the tim
   });
 });
 
-test("pictures and animations show both plans that are compared", async () => {
+test("a picture shows both plans that are compared", async () => {
   await onBundle(async (page) => {
     await paste(page, SHORT);
     await pressPlan(page);
@@ -122,9 +122,6 @@ test("pictures and animations show both plans that are compared", async () => {
     });
     const picture = await readFile((await saved(page, "#save-picture")).path);
     assert.deepEqual([picture.readUInt32BE(16), picture.readUInt32BE(20)], [2 * width, 2 * height]);
-    const { path } = await saved(page, "#save-animation");
-    const { videoWidth, videoHeight } = await readVideo(page, path, lookThrough);
-    assert.deepEqual([videoWidth, videoHeight], [width, height]);
   });
 });
 
