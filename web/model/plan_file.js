@@ -77,6 +77,7 @@ export const OF_ANSWERS = {
   verified: isFlag,
   min_clearance: (value) => value === null || isNumber(value),
   deterministic: isFlag,
+  objective_value: isNumber,
   lattice_spacing: isNumber,
   search: (value) => isNumber(value?.expansions),
   timings_ms: (value) => isNumber(value?.plan) && isNumber(value.total),

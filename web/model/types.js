@@ -80,6 +80,7 @@
  * @property {boolean} [verified]
  * @property {number | null} [min_clearance]
  * @property {boolean} [deterministic]
+ * @property {number} [objective_value]
  * @property {{expansions: number}} [search]
  * @property {number} [lattice_spacing] metres; if it is not the size of a cell
  * @property {Record<string, number>} [timings_ms]
