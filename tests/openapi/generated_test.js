@@ -76,12 +76,17 @@ const BEYOND_SCHEMA = {
   // `goal` of an action that is no wait, `reverse` of one that is no translation; serial number of no robot; what is
   // left of no service
   unknown_key:
-    /\/((committed|previous|actions)\/\d+\/(goal|reverse)|(serial_numbers|map_ids|manufacturers)\/[^/]*|states\/\d+\/service_left)$/,
+    /\/((committed|previous|actions)\/\d+\/(goal|reverse|profile)|(serial_numbers|map_ids|manufacturers)\/[^/]*|states\/\d+\/service_left)$/,
   unknown_obstacle: /^\/unavoidable\/\d+\/obstacle$/,
   discontinuity: /^\/(robots\/\d+\/(committed|previous)|plans\/\d+\/actions)\/\d+\/\w+$/,
   speed: anyOf(
     "/(robots/\\d+/(committed|previous)|plans/\\d+/actions)/\\d+(/reverse)?",
     "/obstacles/\\d+/motion/\\d+",
+  ),
+  // speeds that do not fit the action, the robot or their neighbours
+  profile: anyOf(
+    "(/robots/\\d+/(committed|previous)|/plans/\\d+/actions)/\\d+(/profile(/start)?)?",
+    "/robots/\\d+/(committed|previous)",
   ),
   committed_collision: /^\/robots\/\d+\/committed\/\d+$/,
   committed_in_zone: /^\/robots\/\d+\/committed\/\d+$/,

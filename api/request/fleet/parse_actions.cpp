@@ -30,6 +30,10 @@ double turn_between(const core::Pose& a, const core::Pose& b) {
   return core::angle_between(a.theta, b.theta);
 }
 
+bool is_possible(const core::SpeedProfile& profile) {
+  return profile.cruise > 0.0 && profile.cruise >= std::max(profile.start, profile.end);
+}
+
 /// Returns what a profile has to cover: metres, or radians of a rotation.
 double amount_of(const core::Action& action) {
   return action.type == core::Action::Type::rotate ? turn_between(action.from, action.to)
@@ -60,6 +64,7 @@ double covered_by_profile(const core::Action& action) {
 
 bool profile_fits(const core::Action& action) {
   const core::SpeedProfile& profile = *action.profile;
+  if (!is_possible(profile)) return false;
   const double duration = action.t_end - action.t_start;
   return duration >= profile.rise_time() + profile.fall_time() - kTolerance &&
          std::abs(covered_by_profile(action) - amount_of(action)) <= kTolerance * (1.0 + profile.cruise);
@@ -190,6 +195,13 @@ void ActionChain::check_profile(const core::Action& action, const JsonReader& it
     return;
   }
   if (profile_fits(action)) return;
+  if (!is_possible(profile)) {
+    member.fault(fault::kProfile, [&] {
+      return name() + " has a profile with a cruise speed of " + number_text(profile.cruise) +
+             "; it must be greater than 0, and no less than start and end.";
+    });
+    return;
+  }
   const double amount = amount_of(action);
   const double duration = action.t_end - action.t_start;
   const double changes = profile.rise_time() + profile.fall_time();
@@ -272,14 +284,7 @@ std::optional<core::SpeedProfile> parse_profile(const JsonReader& member) {
   profile.start = json.require("start").number(kProfileSpeed).value_or(0.0);
   profile.cruise = json.require("cruise").number(kProfileSpeed).value_or(0.0);
   profile.end = json.require("end").number(kProfileSpeed).value_or(0.0);
-  if (member.fault_count() != before) return std::nullopt;
-  if (profile.cruise <= 0.0 || profile.cruise < std::max(profile.start, profile.end)) {
-    member.fault(fault::kProfile, [] {
-      return "The cruise speed of a profile must be greater than 0, and no less than its start and end.";
-    });
-    return std::nullopt;
-  }
-  return profile;
+  return member.fault_count() == before ? std::optional(profile) : std::nullopt;
 }
 
 bool gives_back(const core::Pose& map, const core::Pose& world, const WorldFrame& frame) {

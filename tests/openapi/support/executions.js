@@ -67,6 +67,9 @@ export async function plannedFleets(client, requests, count, seed) {
   return all;
 }
 
+/** A member of an object; undefined for what all objects have: robots may be called "toString". */
+const ownOf = (object, key) => (Object.hasOwn(object, key) ? object[key] : undefined);
+
 /** Arbitraries of requests about the planned fleets, which the service has to accept. */
 export class Executions {
   #document;
@@ -238,13 +241,13 @@ export class Executions {
     const text = fc.string({ minLength: 1, maxLength: 20, unit: "grapheme" });
     const number = fc.nat({ max: 20 });
     return this.orders().chain((body) => {
-      const serial = ({ id }) => body.serial_numbers[id] ?? id;
+      const serial = ({ id }) => ownOf(body.serial_numbers, id) ?? id;
       const serials = body.robots.map(serial);
       const vehicles = body.robots.filter((robot, k) => serials.indexOf(serial(robot)) === k);
       const message = (robot) =>
         fc.record({
           serialNumber: fc.constant(serial(robot)),
-          manufacturer: fc.constant(body.manufacturers[robot.id] ?? body.manufacturer),
+          manufacturer: fc.constant(ownOf(body.manufacturers, robot.id) ?? body.manufacturer),
           orderId: fc.oneof(text, fc.constant(""), fc.constant(orderOf(body, robot.id) ?? "")),
           orderUpdateId: number,
           lastNodeSequenceId: number,
