@@ -193,10 +193,7 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
   for (core::RobotPlan& plan : parse_plans(root.require("plans"), fleet.robots, WorldFrame{})) {
     read.executions[plan.robot].actions = std::move(plan.actions);
     read.executions[plan.robot].planned = true;
-    // Of an invalid plan, what the robot does is as good as measured.
-    for (core::Action& action : read.executions[plan.robot].actions) {
-      if (action.profile && !profile_fits(action)) action.profile.reset();
-    }
+    leave_out_unfit_profiles(read.executions[plan.robot].actions);
   }
   if (!read.request || root.fault_count() > 0 || stop.met()) return std::nullopt;
   std::size_t corners = fleet.zones.size();

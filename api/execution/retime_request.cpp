@@ -11,6 +11,7 @@
 
 #include "api/json/faults.h"
 #include "api/json/json_writer.h"
+#include "api/request/fleet/parse_actions.h"
 #include "api/request/fleet/parse_plans.h"
 #include "api/request/fleet/parse_robots.h"
 #include "api/request/options.h"
@@ -111,6 +112,7 @@ std::optional<RetimeRequest> parse_retime_request(const JsonReader& root, const 
       parse_robots(root.require("robots"), root.find("robot_defaults"), WorldFrame{}, limits, ids);
   const JsonReader plans = root.require("plans");
   request.plans = parse_plans(plans, robots, WorldFrame{});
+  for (core::RobotPlan& plan : request.plans) leave_out_unfit_profiles(plan.actions);
   request.rules.now = root.require("at").number(kDuration).value_or(0.0);
   if (root.fault_count() > 0 || stop.met()) return std::nullopt;
   check_times(plans, request.plans);

@@ -218,6 +218,15 @@ const CASES = {
     request((r) => (r.robots[0].committed = [{ ...WAIT, type: "translate", to: { ...POSE, x: 2.5 } }])),
     [["/robots/0/committed/0", "speed"]],
   ],
+  "a committed action whose profile covers less": [
+    "/v1/plan",
+    request((r) => {
+      r.robots[0].linear_acceleration = 1;
+      const profile = { start: 0, cruise: 0.1, end: 0 };
+      r.robots[0].committed = [{ ...WAIT, type: "translate", to: { ...POSE, x: POSE.x + 0.5 }, profile }];
+    }),
+    [["/robots/0/committed/0/profile", "profile"]],
+  ],
   "committed motion into a wall": [
     "/v1/plan",
     request((r) => {

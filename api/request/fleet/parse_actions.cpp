@@ -70,6 +70,12 @@ bool profile_fits(const core::Action& action) {
          std::abs(covered_by_profile(action) - amount_of(action)) <= kTolerance * (1.0 + profile.cruise);
 }
 
+void leave_out_unfit_profiles(std::vector<core::Action>& actions) {
+  for (core::Action& action : actions) {
+    if (action.profile && !profile_fits(action)) action.profile.reset();
+  }
+}
+
 ActionChain::ActionChain(const ActionsOwner& owner)
     : linear_speed_(owner.linear_speed),
       angular_speed_(owner.angular_speed),

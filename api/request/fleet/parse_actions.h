@@ -24,10 +24,8 @@ core::Action parse_action(const JsonReader& item, const Range& times);
 bool profile_fits(const core::Action& action);
 double covered_by_profile(const core::Action& action);
 
-/// Whether a profile leads over the length (or angle) of its action in its time; and the length that it
-/// covers.
-bool profile_fits(const core::Action& action);
-double covered_by_profile(const core::Action& action);
+/// Leaves out the profiles that do not fit: what a robot does by an invalid plan is as good as measured.
+void leave_out_unfit_profiles(std::vector<core::Action>& actions);
 
 /// Returns the action in the map frame, with normalised headings.
 core::Action to_map(const core::Action& world, const WorldFrame& frame);
