@@ -28,6 +28,7 @@ std::vector<Piece> committed_pieces(const core::Robot& robot) {
   std::vector<Piece> pieces;
   double radius = robot.radius;
   auto step = steps.begin();
+  // Bounded: the changes of radius of one robot, each once.
   const auto add = [&](Piece piece) {
     for (; step != steps.end() && step->t < piece.end; ++step) {
       if (step->t > piece.begin) {

@@ -54,6 +54,7 @@ inline std::vector<TimedSegment> timed_segments(const Trajectory& trajectory) {
   segments.reserve(2 * trajectory.moves.size() + 1);
   double now = 0.0;
   Position here = trajectory.start;
+  // Bounded: the moves of one trajectory, and at most three phases of each.
   for (std::size_t k = 0; k < trajectory.moves.size(); ++k) {
     const TimedSegment& move = trajectory.moves[k];
     if (move.t_start > now) segments.push_back({{here, here}, now, move.t_start});

@@ -169,6 +169,7 @@ namespace {
 /// The parts of a move in which its acceleration is constant, in seconds from its departure.
 std::vector<TimedSegment> parts_of(const std::vector<DriveZones::Piece>& pieces) {
   std::vector<TimedSegment> parts;
+  // Bounded: the pieces of one move, and at most three phases of each.
   for (const DriveZones::Piece& piece : pieces) {
     const TimedSegment move{piece.path, piece.begin, piece.end};
     if (!piece.profile) {

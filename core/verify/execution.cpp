@@ -82,6 +82,7 @@ std::vector<Leg> execute(const Robot& robot, const RobotPlan* plan) {
   const std::vector<Action>& without_plan = robot.invalid ? none : robot.committed;
   const std::vector<Action>& actions = plan != nullptr ? plan->actions : without_plan;
   legs.reserve(actions.size() + 1);
+  // Bounded: the actions of one plan, and at most three legs of each.
   for (const Action& action : actions) {
     if (action.t_start > now) {
       legs.push_back({now, action.t_start, here, here});

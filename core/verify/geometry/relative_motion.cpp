@@ -286,25 +286,31 @@ double sag(const Leg& leg, const TimeSpan& span) {
 }  // namespace
 
 ShiftedMoment least_shifted_distance(const Leg& a, const TimeSpan& first, const Leg& b,
-                                     const TimeSpan& second, double margin) {
+                                     const TimeSpan& second, double margin, double enough) {
   ShiftedMoment nearest = least_shifted_distance_of_chords(a, first, b, second, margin);
   if (sag(a, first) + sag(b, second) <= 0.0) return nearest;
-  // Branch and bound: halves of the spans, until chords differ from the legs by no more than rounding.
+  // Branch and bound: halves of the spans, until their chords decide.
   struct Part {
     TimeSpan first;
     TimeSpan second;
   };
   nearest.distance = std::numeric_limits<double>::infinity();
   std::vector<Part> open{{first, second}};
+  // Bounded: each halving makes the deviation from the chords a quarter, down to kSamePosition.
   while (!open.empty()) {
     const Part part = open.back();
     open.pop_back();
-    ShiftedMoment chords = least_shifted_distance_of_chords(a, part.first, b, part.second, margin);
+    const ShiftedMoment chords = least_shifted_distance_of_chords(a, part.first, b, part.second, margin);
     const double mine = sag(a, part.first);
     const double its = sag(b, part.second);
-    if (chords.distance - mine - its >= nearest.distance - kSamePosition) continue;
+    const double least = chords.distance - mine - its;
+    // Of a distance that is too short, two digits are enough.
+    const double digits = nearest.distance < enough && std::isfinite(enough) ? 0.01 * enough : kSamePosition;
+    if (least >= enough || least >= nearest.distance - digits) continue;
+    const double there = (position_at(b, chords.t_second) - position_at(a, chords.t_first)).norm();
+    if (there < nearest.distance) nearest = {there, chords.t_first, chords.t_second};
     if (mine + its <= kSamePosition) {
-      nearest = chords;
+      if (chords.distance < nearest.distance) nearest = chords;
       continue;
     }
     const TimeSpan& divided = mine >= its ? part.first : part.second;

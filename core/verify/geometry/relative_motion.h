@@ -4,6 +4,7 @@
 // by leg, at equal and at slightly different times.
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -120,8 +121,10 @@ struct ShiftedMoment {
 
 /// Returns the least distance of a position of one leg at a time within `first`, and one of the other leg at
 /// a time within `second`, if these times differ by no more than `margin`. All times are finite. Exact up to
-/// rounding, and up to kSamePosition for legs that bend.
+/// rounding. Of legs that bend: up to kSamePosition, or up to a hundredth of `enough` (metres) if it is less
+/// than that; infinity or any other number that is not less if it is not.
 ShiftedMoment least_shifted_distance(const Leg& a, const TimeSpan& first, const Leg& b,
-                                     const TimeSpan& second, double margin);
+                                     const TimeSpan& second, double margin,
+                                     double enough = std::numeric_limits<double>::infinity());
 
 }  // namespace fleetplan::core

@@ -121,11 +121,11 @@ class MarginSweep {
     const double kept = fleet_.kept_distance(first, second, inflation_) -
                         std::max(fleet_.tolerances[first], fleet_.tolerances[second]);
     const auto record = [&](const TimeSpan& a, const TimeSpan& b) {
-      const ShiftedMoment nearest = least_shifted_distance(leg, a, other, b, margin_);
+      const ShiftedMoment nearest = least_shifted_distance(leg, a, other, b, margin_, kept);
       if (nearest.distance < kept) add({first, second, nearest.t_first, nearest.t_second, nearest.distance});
     };
     if (least_possible(leg, time, other, its_time) >= kept) return;
-    if (least_shifted_distance(leg, time, other, its_time, margin_).distance >= kept) return;
+    if (least_shifted_distance(leg, time, other, its_time, margin_, kept).distance >= kept) return;
     const std::vector<TimeSpan> left_out = left_out_(first, second);
     // Bounded: the spans that few left-out ones leave.
     for (const TimeSpan& a : without(time, left_out)) {
