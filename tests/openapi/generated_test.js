@@ -57,7 +57,7 @@ const BEYOND_SCHEMA = {
     "/disturbance/(speed|turn|start_delay)/max",
     "/trace",
     "(/robots?(/\\d+(/goal(s/\\d+)?)?)?|/(goals|tasks)/\\d+/goals/\\d+)?/metadata",
-    "(/robots/\\d+/goal(s/\\d+)?|/(goals|tasks)/\\d+/goals/\\d+)/(actions|service)", // actions need a service
+    "(/robots/\\d+/goal(s/\\d+)?|/(goals|tasks)/\\d+/goals/\\d+)/(actions|service|due)", // actions need a service; due before not_before
     "/states/\\d+/released(/action)?", // behind the robot
     "/base/\\d+/order/nodes", // of which none is released
     "/release_ahead", // of plans that would have too many nodes
