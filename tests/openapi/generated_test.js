@@ -91,9 +91,9 @@ const BEYOND_SCHEMA = {
   committed_collision: /^\/robots\/\d+\/committed\/\d+$/,
   committed_in_zone: /^\/robots\/\d+\/committed\/\d+$/,
   start_in_obstacle: /^\/(robots\/\d+\/start|from\/\d+)$/,
-  goal_in_obstacle: /^\/(robots\/\d+\/goal(s\/\d+)?|to\/\d+)$/,
+  goal_in_obstacle: /^\/(robots\/\d+\/(start|goal(s\/\d+)?)|to\/\d+)$/, // a robot that returns to its start
   starts_overlap: /^\/robots\/\d+\/start$/,
-  goals_overlap: /^\/robots\/\d+\/goal(s\/\d+)?$/,
+  goals_overlap: /^\/robots\/\d+\/(start|goal(s\/\d+)?)$/,
   dependency: /^\/dependencies\/\d+(\/slack|\/(gate|until)\/\w+)?$/,
   invalid_plan: /^\/(plans\/\d+(\/actions\/\d+)?|robots\/\d+)$/,
 };
