@@ -36,11 +36,20 @@ Actions before_place(const Actions& actions, const Place& place) {
   return at_rest_in_the_end(std::move(before));
 }
 
+/// Lets the first actions begin at rest, if they were planned to be under way.
+void start_at_rest(Actions& actions) {
+  if (actions.empty() || !actions.front().profile || actions.front().profile->start <= 0.0) return;
+  const auto end = actions.begin() + static_cast<std::ptrdiff_t>(end_of_chain(actions, 0));
+  const Actions chain = driven_from(Actions(actions.begin(), end), actions.front().t_start, 0.0);
+  std::copy(chain.begin(), chain.end(), actions.begin());
+}
+
 /// The actions after a place, as many seconds earlier.
 Actions after_place(const Actions& actions, const Place& place, double earlier) {
   const Actions before = before_place(actions, place);
   Actions after = resumed_after(before, actions);
   after.erase(after.begin(), after.begin() + static_cast<std::ptrdiff_t>(before.size()));
+  start_at_rest(after);
   for (Action& action : after) {
     action.t_start -= earlier;
     action.t_end -= earlier;
