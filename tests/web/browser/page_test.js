@@ -69,7 +69,7 @@ test("every example loads, plans and plays its plan", async () => {
         const ids = request.robots.map(({ id }) => id);
         const drawn = await page.evaluate((all) => all.map((id) => window.fleetplan.poseOf(id)), ids);
         request.robots.forEach((robot, at) => {
-          const expected = expectedPose(robot.start, plans.get(robot.id) ?? [], time);
+          const expected = expectedPose(robot.start, plans.get(robot.id) ?? [], time, robot);
           const where = `${name}: ${robot.id} at ${time}`;
           assert.ok(Math.hypot(drawn[at].x - expected.x, drawn[at].y - expected.y) < NEAR, where);
           assert.ok(headingGap(drawn[at].theta, expected.theta) < NEAR, where);

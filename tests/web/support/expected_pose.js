@@ -3,15 +3,16 @@
 const TURN = 2 * Math.PI;
 
 /** The pose at t of a robot that starts at `start` and follows `actions`. */
-export function expectedPose(start, actions, t) {
+export function expectedPose(start, actions, t, robot = {}) {
   let pose = { x: start.x, y: start.y, theta: start.theta ?? 0 };
-  for (const { type, t_start, t_end, from, to } of actions) {
+  for (const action of actions) {
+    const { type, t_start, t_end, from, to } = action;
     if (t >= t_end) {
       pose = to;
       continue;
     }
     if (t < t_start) break;
-    const share = (t - t_start) / (t_end - t_start);
+    const share = action.profile ? integrated(action, t, robot) : (t - t_start) / (t_end - t_start);
     if (type === "translate") {
       return { x: from.x + share * (to.x - from.x), y: from.y + share * (to.y - from.y), theta: from.theta };
     }
@@ -20,6 +21,26 @@ export function expectedPose(start, actions, t) {
     return from;
   }
   return pose;
+}
+
+/** The share of an action with a profile that is covered at t: the area under its speed, which is linear in parts. */
+function integrated({ type, t_start, t_end, profile }, t, robot) {
+  const turns = type === "rotate";
+  const gain = turns ? robot.angular_acceleration : robot.linear_acceleration;
+  const loss = turns ? gain : (robot.linear_deceleration ?? gain);
+  const speed = (at) =>
+    Math.min(profile.cruise, profile.start + gain * (at - t_start), profile.end + loss * (t_end - at));
+  const bends = [
+    t_start + (profile.cruise - profile.start) / gain,
+    t_end - (profile.cruise - profile.end) / loss,
+  ];
+  const covered = (until) => {
+    const times = [t_start, ...bends.map((at) => Math.min(at, until)), until].sort((a, b) => a - b);
+    return times
+      .slice(1)
+      .reduce((sum, at, k) => sum + ((at - times[k]) * (speed(at) + speed(times[k]))) / 2, 0);
+  };
+  return covered(t) / covered(t_end);
 }
 
 function turn(from, to) {
