@@ -250,10 +250,8 @@ Approach nearest(const Parabola& motion, const Approach& best) {
   const double share = nearest_share({motion.from, motion.to}, {0.0, 0.0});
   const double distance = (motion.from + share * (motion.to - motion.from)).norm();
   if (distance - sag >= best.distance) return best;
-  if (sag <= kParabolaError) {  // the better one: errors of many small parts would add up
-    if (distance >= best.distance) return best;
-    return {motion.t_begin + share * (motion.t_end - motion.t_begin), distance};
-  }
+  // Errors of small parts may add up, to some nanometres.
+  if (sag <= kParabolaError) return {motion.t_begin + share * (motion.t_end - motion.t_begin), distance};
   return nearest(motion.half(true), nearest(motion.half(false), best));
 }
 

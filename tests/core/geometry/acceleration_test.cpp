@@ -193,9 +193,9 @@ TEST(Acceleration, CollidesWhereSamplesAreNear) {
       ASSERT_EQ(exact, kForever);
       continue;
     }
-    ASSERT_LE(exact, distance + 1e-9);
+    ASSERT_LE(exact, distance + 1e-8);
     ASSERT_GE(exact, distance - kSampling);
-    if (std::abs(exact - e.encounter.reach) < 1e-9) continue;
+    if (std::abs(exact - e.encounter.reach) < 1e-8) continue;
     ASSERT_EQ(collide(mine, e.encounter.other, e.encounter.reach), exact < e.encounter.reach);
     ASSERT_EQ(collide(e.encounter.other, mine, e.encounter.reach), exact < e.encounter.reach);
     if (exact < e.encounter.reach) ++collisions;
