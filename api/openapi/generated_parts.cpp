@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "api/endpoints/endpoints.h"
 #include "api/json/error.h"
 #include "api/request/options.h"
 #include "api/response/reply.h"
@@ -140,13 +141,13 @@ constexpr std::array<Response, 15> kResponses{{
 }};
 
 /// An answer of the service. The tests compare it with real ones.
-struct Example {
+struct ProblemExample {
   ErrorCode code;
   std::string_view detail;
   std::string_view name = {};  // empty: that of the code
 };
 
-constexpr std::array<Example, 22> kExamples{{
+constexpr std::array<ProblemExample, 22> kExamples{{
     {ErrorCode::malformed_json,
      "Not JSON at line 3, column 14 (byte 47): NaN and infinities are not JSON; give a finite number."},
     {ErrorCode::too_deep, "The JSON nests arrays and objects deeper than the limit of 32 levels."},
@@ -156,10 +157,7 @@ constexpr std::array<Example, 22> kExamples{{
     {ErrorCode::foreign_origin,
      "Pages of the origin 'https://other.example' may not use this service, unless it is started with "
      "--cors-origin."},
-    {ErrorCode::not_found,
-     "There is no example 'corridor'; there are: charging-docks, corridor-swap, crossing, crossing-people, "
-     "hall-100, hospital-ward, hospital-wing, lab-polygon, late-pallet, office-floor, parking, "
-     "partly-solvable, rush-hour, warehouse."},
+    {ErrorCode::not_found, "There is no example 'corridor'; there are: "},  // the names follow
     {ErrorCode::method_not_allowed, "'/v1/plan' allows POST, not 'GET'."},
     {ErrorCode::not_acceptable,
      "Answers are application/json or text/event-stream, which Accept: 'text/html' excludes: add "
@@ -195,6 +193,16 @@ constexpr std::array<Example, 22> kExamples{{
     {ErrorCode::draining, kDrainingDetail},
 }};
 
+std::string detail_of(const ProblemExample& example) {
+  std::string detail(example.detail);
+  if (example.code != ErrorCode::not_found) return detail;
+  for (const Example& request : examples()) {
+    if (&request != &examples().front()) detail += ", ";
+    detail += request.name;
+  }
+  return detail + '.';
+}
+
 std::vector<Fault> faults_of(ErrorCode code) {
   if (code != ErrorCode::invalid_request) return {};
   return {
@@ -213,12 +221,12 @@ Json reference(std::string_view section, std::string_view component) {
 
 Json examples_of(int status) {
   Json examples;
-  for (const Example& example : kExamples) {
+  for (const ProblemExample& example : kExamples) {
     if (status_of(example.code) != status) continue;
     const std::string_view name = example.name.empty() ? name_of(example.code) : example.name;
     const std::vector<Fault> faults = faults_of(example.code);
     const Reply reply =
-        problem_reply({example.code, std::string(example.detail), faults, faults.size()}, "shift-7.plan-42");
+        problem_reply({example.code, detail_of(example), faults, faults.size()}, "shift-7.plan-42");
     examples[std::string(name)]["value"] = Json::parse(reply.body);
   }
   return examples;
