@@ -1,22 +1,48 @@
-// Runs `node --test` with these arguments and one Chromium for all test files, one more at once than there are CPUs, as
-// tests wait for frames. Without it, each file starts a Chromium of its own.
+// Runs `node --test` with these arguments, on all test files if none is named. Loading Playwright and starting Chromium
+// take longer than most tests, so the files of browser/ are run in batches: a process each, which runs file after file.
 
 import { spawn } from "node:child_process";
 import { once } from "node:events";
-import { availableParallelism } from "node:os";
-import { chromium } from "playwright-core";
+import { mkdtemp, readdir, rm, stat, writeFile } from "node:fs/promises";
+import { availableParallelism, tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
 
-import { LAUNCH } from "./support/browser.js";
+const AT_ONCE = availableParallelism() + 1; // processes, as tests wait for frames
+const BATCHES = 2 * AT_ONCE; // so that a process that is done early takes another one
 
-const browser = await chromium.launchServer({ ...LAUNCH, host: "127.0.0.1" });
+async function testFiles(folder) {
+  const names = await readdir(folder);
+  return names.filter((name) => name.endsWith("_test.js")).map((name) => join(folder, name));
+}
+
+/** Writes a module to `folder` for each batch of the files, which imports them; about as much to each. */
+async function writeBatches(files, folder) {
+  const sized = await Promise.all(files.map(async (file) => ({ file, size: (await stat(file)).size })));
+  sized.sort((one, other) => other.size - one.size);
+  /** @type {string[]} */ const modules = Array.from({ length: Math.min(BATCHES, files.length) }, () => "");
+  sized.forEach(({ file }, at) => {
+    modules[at % modules.length] += `await import(${JSON.stringify(pathToFileURL(resolve(file)).href)});\n`;
+  });
+  const batches = modules.map((text, at) => ({ path: join(folder, `batch_${at + 1}_test.mjs`), text }));
+  await Promise.all(batches.map(({ path, text }) => writeFile(path, text)));
+  return batches.map(({ path }) => path);
+}
+
+const given = process.argv.slice(2);
+const options = given.filter((each) => each.startsWith("-"));
+const named = given.filter((each) => !each.startsWith("-"));
+const files = named.length > 0 ? named : [...(await testFiles("browser")), ...(await testFiles("unit"))];
+const inBrowser = (file) => resolve(file).startsWith(resolve("browser"));
+const folder = await mkdtemp(join(tmpdir(), "fleetplan-page-tests-"));
 try {
-  const files = `--test-concurrency=${availableParallelism() + 1}`;
-  const tests = spawn(process.execPath, ["--test", files, ...process.argv.slice(2)], {
-    env: { ...process.env, CHROMIUM_ENDPOINT: browser.wsEndpoint() },
+  const batches = await writeBatches(files.filter(inBrowser), folder);
+  const all = [...batches, ...files.filter((file) => !inBrowser(file))];
+  const tests = spawn(process.execPath, ["--test", `--test-concurrency=${AT_ONCE}`, ...options, ...all], {
     stdio: "inherit",
   });
   const [code] = await once(tests, "exit");
   process.exitCode = code ?? 1;
 } finally {
-  await browser.close();
+  await rm(folder, { recursive: true });
 }

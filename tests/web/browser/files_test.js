@@ -8,10 +8,11 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { promisify } from "node:util";
 
-import { choose, openPage, pressPlan, startBrowser } from "../support/browser.js";
+import { choose, openPage, pressPlan } from "../support/browser.js";
 import { drop, pgm, png, WAYS } from "../support/map_files.js";
 import { hook, pagesFor, REFUSED } from "../support/on_page.js";
 import { startService } from "../support/service.js";
+import { sharedBrowser } from "../support/shared.js";
 
 const onPage = pagesFor(["--max-cells", "200"]);
 
@@ -491,10 +492,9 @@ test("with a token, the copied command line presents it", async () => {
   const file = join(folder, "token");
   await writeFile(file, "a-long-token-for-tests\n");
   const service = await startService(["--auth-token-file", file]);
-  const browser = await startBrowser();
   try {
     const httpCredentials = { username: "any", password: "a-long-token-for-tests" };
-    const { page } = await openPage(browser, service.url, { httpCredentials });
+    const { page, close } = await openPage(await sharedBrowser(), service.url, { httpCredentials });
     const learnt = page.waitForResponse((response) => response.status() === 401);
     await page.click("#save-menu summary");
     await learnt;
@@ -505,8 +505,8 @@ test("with a token, the copied command line presents it", async () => {
       env: { ...process.env, TOKEN: "a-long-token-for-tests" },
     });
     assert.equal(JSON.parse(stdout).status, "solved");
+    await close();
   } finally {
-    await browser.close();
     await service.stop();
     await rm(folder, { recursive: true });
   }

@@ -3,9 +3,10 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { choose, chosenExample, openPage, pressPlan, startBrowser } from "../support/browser.js";
+import { choose, chosenExample, openPage, pressPlan } from "../support/browser.js";
 import { hook, pagesFor, paste, streamPlan } from "../support/on_page.js";
 import { startService } from "../support/service.js";
+import { sharedBrowser } from "../support/shared.js";
 
 const onPage = pagesFor();
 
@@ -95,9 +96,8 @@ test("the best plan is kept when the connection is lost", async () => {
 
 test("the best plan is kept when the service is killed while it improves it", async () => {
   const service = await startService();
-  const browser = await startBrowser();
   try {
-    const { page, close } = await openPage(browser, service.url);
+    const { page, close } = await openPage(await sharedBrowser(), service.url);
     const request = await choose(page, "crossing");
     await paste(page, { ...request, options: { mode: "anytime", time_budget_ms: 60_000 } });
     await page.waitForFunction(() => window.fleetplan.request.options?.mode === "anytime");
@@ -109,7 +109,6 @@ test("the best plan is kept when the service is killed while it improves it", as
     assert.equal((await hook(page, "answer")).status, "solved");
     await close();
   } finally {
-    await browser.close();
     await service.kill();
   }
 });

@@ -2,12 +2,11 @@
 // In headless Chromium, against the real server.
 
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 
-import { choose, openPage, planAndPause, pressPlan, seek, startBrowser } from "../support/browser.js";
+import { choose, planAndPause, pressPlan, seek } from "../support/browser.js";
 import { expectedPose } from "../support/expected_pose.js";
-import { paste } from "../support/on_page.js";
-import { startService } from "../support/service.js";
+import { pagesFor, paste } from "../support/on_page.js";
 
 const NEAR = 1e-9; // metres
 const CHORDS = 5e-3; // metres: what chords of a change of speed may miss
@@ -17,29 +16,8 @@ const ROW = 20;
 const LABELS = 132;
 const RIGHT = 10;
 
-let service;
-let browser;
-
-before(async () => {
-  service = await startService();
-  browser = await startBrowser();
-});
-
-after(async () => {
-  await browser?.close();
-  await service?.stop();
-});
-
-/** Runs `steps` on a fresh page, which must not complain. */
-async function onPage(steps, options = { colorScheme: "light" }) {
-  const opened = await openPage(browser, service.url, options);
-  try {
-    await steps(opened.page);
-    assert.deepEqual(opened.complaints, []);
-  } finally {
-    await opened.close();
-  }
-}
+const onFreshPage = pagesFor();
+const onPage = (steps, options = { colorScheme: "light" }) => onFreshPage(steps, { options });
 
 /** Plans an example and pauses: {request, answer}. */
 async function planned(page, name) {
@@ -480,9 +458,9 @@ function withoutWaits(answer, id) {
 }
 
 test("violations are listed, and pressing one shows its moment and robots", async () => {
-  await onPage(async (page) => {
+  await onPage(async (page, { url }) => {
     await page.route("**/v1/plan", async (route) => {
-      const response = await fetch(new URL("v1/plan", service.url), {
+      const response = await fetch(new URL("v1/plan", url), {
         method: "POST",
         headers: { "Content-Type": "application/json" },
         body: route.request().postData(),

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { mkdir } from "node:fs/promises";
-import { before, test } from "node:test";
+import { test } from "node:test";
 import { fileURLToPath } from "node:url";
 
 import { choose, planAndPause, pressPlan, seek } from "../support/browser.js";
@@ -15,7 +15,7 @@ const SIZES = {
 };
 const onPage = pagesFor();
 
-before(() => mkdir(FOLDER, { recursive: true }));
+await mkdir(FOLDER, { recursive: true });
 
 /** An example's plan, at rest a third on, with a robot selected. */
 async function planned(page, example, robot) {

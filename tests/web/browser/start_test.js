@@ -1,33 +1,24 @@
 // Pages that do not load completely, in headless Chromium.
 
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { fileURLToPath } from "node:url";
 
-import { chosenExample, newContext, pickExample, pressPlan, startBrowser } from "../support/browser.js";
-import { startService } from "../support/service.js";
+import { chosenExample, newContext, pickExample, pressPlan } from "../support/browser.js";
+import { sharedBrowser, sharedService } from "../support/shared.js";
 
 const SOURCES = fileURLToPath(new URL("../../../web", import.meta.url));
 const REQUEST = "#partly-solvable";
 
-let service;
-let browser;
-
-before(async () => {
-  service = await startService(["--web-root", SOURCES]);
-  browser = await startBrowser();
-});
-
-after(async () => {
-  await browser?.close();
-  await service?.stop();
-});
-
-/** Runs the steps on a page of a new context. */
+/** Runs steps(page, url) on a page of a new context, which is to visit the url. */
 async function onNewPage(steps, options = {}) {
-  const context = await newContext(browser, { viewport: { width: 390, height: 844 }, ...options });
+  const { url } = await sharedService(["--web-root", SOURCES]);
+  const context = await newContext(await sharedBrowser(), {
+    viewport: { width: 390, height: 844 },
+    ...options,
+  });
   try {
-    await steps(await context.newPage());
+    await steps(await context.newPage(), url);
   } finally {
     await context.close();
   }
@@ -43,9 +34,9 @@ const begun = (page) => page.waitForFunction(() => window.fleetplan?.request);
 
 for (const part of ["**/model/scene.js", "**/main.js", "**/styles/main.css"]) {
   test(`a page whose ${part} does not load says so, and loads again with its request`, async () => {
-    await onNewPage(async (page) => {
+    await onNewPage(async (page, url) => {
       const found = await losing(page, part);
-      await page.goto(service.url + REQUEST);
+      await page.goto(url + REQUEST);
       await page.waitForSelector("#not-loaded.certain");
       assert.match(await page.innerText("#not-loaded"), /has not loaded completely/);
       await found();
@@ -78,14 +69,14 @@ async function stopNotice(page) {
 }
 
 test("a page that loads shows no such notice meanwhile", async () => {
-  await onNewPage(async (page) => {
+  await onNewPage(async (page, url) => {
     let release;
     const held = new Promise((resolve) => (release = resolve));
     await page.route("**/main.js", async (route) => {
       await held;
       await route.continue();
     });
-    await page.goto(service.url, { waitUntil: "commit" });
+    await page.goto(url, { waitUntil: "commit" });
     await page.waitForSelector("#examples");
     const { after, at } = await stopNotice(page);
     await at(after - 0.1);
@@ -96,9 +87,9 @@ test("a page that loads shows no such notice meanwhile", async () => {
 });
 
 test("a page of which nothing arrives says so after a while", async () => {
-  await onNewPage(async (page) => {
+  await onNewPage(async (page, url) => {
     await page.route(/(start|main)\.js/, () => {}); // they are never answered
-    await page.goto(service.url, { waitUntil: "commit" });
+    await page.goto(url, { waitUntil: "commit" });
     const { after, at } = await stopNotice(page);
     assert.equal(after, 10);
     await at(after - 0.1);
@@ -110,8 +101,8 @@ test("a page of which nothing arrives says so after a while", async () => {
 
 test("without JavaScript the page says that it needs it", async () => {
   await onNewPage(
-    async (page) => {
-      await page.goto(service.url);
+    async (page, url) => {
+      await page.goto(url);
       assert.match(await page.innerText("noscript"), /requires JavaScript/);
       assert.equal(await page.isVisible("#not-loaded"), false);
     },
@@ -120,7 +111,7 @@ test("without JavaScript the page says that it needs it", async () => {
 });
 
 test("a request that is lost once is sent again", async () => {
-  await onNewPage(async (page) => {
+  await onNewPage(async (page, url) => {
     const lost = new Set();
     await page.route("**/v1/**", (route) => {
       const address = route.request().url();
@@ -128,7 +119,7 @@ test("a request that is lost once is sent again", async () => {
       lost.add(address);
       return route.abort();
     });
-    await page.goto(service.url);
+    await page.goto(url);
     await begun(page);
     assert.ok(lost.size >= 3, [...lost].join());
     assert.equal(await page.isVisible("#problem"), false);
@@ -137,9 +128,9 @@ test("a request that is lost once is sent again", async () => {
 
 test("examples and limits that do not load are loaded again on demand", async () => {
   for (const part of ["**/v1/examples", "**/v1/limits"]) {
-    await onNewPage(async (page) => {
+    await onNewPage(async (page, url) => {
       const found = await losing(page, part);
-      await page.goto(service.url);
+      await page.goto(url);
       await page.waitForSelector("#problem .again");
       assert.match(await page.innerText("#problem"), /No response from the service/);
       await found();
@@ -152,8 +143,8 @@ test("examples and limits that do not load are loaded again on demand", async ()
 });
 
 test("an example that does not load is loaded again on demand", async () => {
-  await onNewPage(async (page) => {
-    await page.goto(service.url);
+  await onNewPage(async (page, url) => {
+    await page.goto(url);
     await begun(page);
     const found = await losing(page, "**/v1/examples/crossing");
     await pickExample(page, "crossing");
@@ -166,9 +157,9 @@ test("an example that does not load is loaded again on demand", async () => {
 });
 
 test("gaps that cannot be computed, as a part is lost, are computed on demand", async () => {
-  await onNewPage(async (page) => {
+  await onNewPage(async (page, url) => {
     const found = await losing(page, "**/clearance_worker.js");
-    await page.goto(service.url);
+    await page.goto(url);
     await begun(page);
     await pressPlan(page);
     await page.waitForSelector("#problem .again");

@@ -10,16 +10,12 @@ const PATIENCE_MS = 120_000; // what is waited for takes long only on a busy mac
 const DISTURBED = /ERR_NETWORK_CHANGED/;
 
 /** How Chromium is launched: without windows, and the browser's own pages in them, which take a quarter of the time. */
-export const LAUNCH = {
+const LAUNCH = {
   executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium-headless-shell",
   args: FLAGS,
 };
 
-/** The browser of run.js at CHROMIUM_ENDPOINT, which closing leaves running, or one of its own. */
-export function startBrowser() {
-  const shared = process.env.CHROMIUM_ENDPOINT;
-  return shared ? chromium.connect(shared) : chromium.launch(LAUNCH);
-}
+export const startBrowser = () => chromium.launch(LAUNCH);
 
 /** A context whose waits take as long as a busy machine needs. Its browser has visited the page, unless `isNew`. */
 export async function newContext(browser, { isNew = false, ...options } = {}) {

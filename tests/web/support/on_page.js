@@ -1,30 +1,20 @@
-// Steps on fresh pages, with a server and a browser per test file.
+// Steps on fresh pages.
 
 import assert from "node:assert/strict";
-import { after, before } from "node:test";
 
-import { openPage, startBrowser } from "./browser.js";
-import { startService } from "./service.js";
+import { openPage } from "./browser.js";
+import { sharedBrowser, sharedService } from "./shared.js";
 
 /**
- * Starts a server (with these flags) and a browser before the tests of a file and stops them afterwards. Returns a
- * function that runs `steps(page, opened)` on a fresh page; the page must have no complaints other than those that
- * match `allowed`, a regular expression.
+ * Returns a function that runs `steps(page, opened)` on a fresh page of a server with these flags; the page must have no
+ * complaints other than those that match `allowed`, a regular expression.
  */
 export function pagesFor(flags = []) {
-  const running = {};
-  before(async () => {
-    running.service = await startService(flags);
-    running.browser = await startBrowser();
-  });
-  after(async () => {
-    await running.browser?.close();
-    await running.service?.stop();
-  });
   return async (steps, { options = {}, allowed = null, hash = "" } = {}) => {
-    const opened = await openPage(running.browser, running.service.url + hash, options);
+    const { url } = await sharedService(flags);
+    const opened = await openPage(await sharedBrowser(), url + hash, options);
     try {
-      await steps(opened.page, { ...opened, url: running.service.url });
+      await steps(opened.page, { ...opened, url });
       const complaints = opened.complaints.filter((text) => !allowed?.test(text));
       assert.deepEqual(complaints, []);
     } finally {
