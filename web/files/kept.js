@@ -27,6 +27,7 @@ class Kept {
     await done(store.put({ ...value, id, at: Date.now() }));
     const ids = await done(store.index(BY_TIME).getAllKeys());
     await Promise.all(ids.slice(0, -MOST).map((old) => done(store.delete(old))));
+    await completed(store.transaction); // the browser drops all of it if the page ends before
   }
 
   /** What is kept under an id, or null. */
@@ -55,5 +56,13 @@ function done(request) {
   return new Promise((resolve, reject) => {
     request.onsuccess = () => resolve(request.result);
     request.onerror = () => reject(request.error);
+  });
+}
+
+/** Resolves when what a transaction has written is kept. */
+function completed(transaction) {
+  return new Promise((resolve, reject) => {
+    transaction.oncomplete = () => resolve(undefined);
+    transaction.onabort = () => reject(transaction.error);
   });
 }
