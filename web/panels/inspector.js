@@ -1,5 +1,5 @@
-// The card of the selected robot: its cost, how it spends its time, and its actions, with the
-// cause of each wait.
+// The card of the selected robot: its cost, how it spends its time, its speeds, and its actions, with the cause of each
+// wait.
 
 import { delayOf } from "../model/gantt.js";
 import { actionInWords, totals, causeOfWait } from "../model/itinerary.js";
@@ -7,6 +7,7 @@ import { actionIndexAt } from "../model/timeline.js";
 import { byId, element, icon, scrollWithin, setText } from "../ui/dom.js";
 import { seconds } from "../ui/format.js";
 import { andMore, robotChip } from "./robot_list.js";
+import { SpeedChart } from "./speed_chart.js";
 import { REASONS } from "./unplanned_card.js";
 
 const EDITING = "tab-edit"; // whose form shows the robot instead
@@ -32,6 +33,8 @@ export class Inspector {
   #shown = null; // the id of the robot shown
   #ofGroup = false; // whether it was one of several that were chosen
   #state = null; // the element with its current state
+  /** @type {SpeedChart | null} */
+  #speeds = null;
   #rows = []; // of the table, one an action
   #current = -1; // the row of the action under way
 
@@ -62,6 +65,7 @@ export class Inspector {
     const { selected, answer } = this.#session;
     this.#shown = selected;
     this.#ofGroup = this.#isGroup;
+    this.#speeds = null;
     this.#rows = [];
     this.#current = -1;
     this.#box.hidden = selected === null || answer === null || this.#isGroup || this.#tabs.chosen === EDITING;
@@ -109,7 +113,8 @@ export class Inspector {
     if (track.unplanned) return [this.#whyUnplanned(track.unplanned)];
     if (track.actions.length === 0) return [element("p", { textContent: NO_ACTIONS[track.status] })];
     const sum = totals(track.actions);
-    return [costOf(track), sharesOf(sum), this.#table(robot, track.actions)];
+    this.#speeds = new SpeedChart(track.actions);
+    return [costOf(track), sharesOf(sum), this.#speeds.node, this.#table(robot, track.actions)];
   }
 
   #whyUnplanned({ reason, detail, blocked_by, blocked_by_total }) {
@@ -185,6 +190,7 @@ export class Inspector {
     if (this.#box.hidden) return;
     const { time } = this.#session.player;
     setText(this.#state, this.#session.stateOf(this.#shown));
+    this.#speeds?.show(time);
     if (this.#rows.length === 0) return;
     const { actions, cost } = this.#session.tracks.get(this.#shown);
     const current = time >= cost ? -1 : actionIndexAt(actions, time);
