@@ -1,5 +1,5 @@
-// The card of the selected robot: its cost, how it spends its time, its speeds, and its actions, with the cause of each
-// wait.
+// The card of the selected robot: its cost, how it spends its time, its actions, with the cause of each wait, and its
+// speeds.
 
 import { delayOf } from "../model/gantt.js";
 import { actionInWords, totals, causeOfWait } from "../model/itinerary.js";
@@ -114,7 +114,7 @@ export class Inspector {
     if (track.actions.length === 0) return [element("p", { textContent: NO_ACTIONS[track.status] })];
     const sum = totals(track.actions);
     this.#speeds = new SpeedChart(track.actions);
-    return [costOf(track), sharesOf(sum), this.#speeds.node, this.#table(robot, track.actions)];
+    return [costOf(track), sharesOf(sum), this.#table(robot, track.actions), this.#speeds.node];
   }
 
   #whyUnplanned({ reason, detail, blocked_by, blocked_by_total }) {

@@ -65,7 +65,10 @@ export class SpeedChart {
       mark,
     );
     const now = element("b");
-    const limit = element("span", { class: "note", textContent: words });
+    const limit = element("span", {
+      class: "note",
+      textContent: `at most ${round(Math.max(...most))} ${unit}`,
+    });
     const figure = element(
       "figure",
       { class: "chart" },
