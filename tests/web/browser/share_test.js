@@ -61,7 +61,7 @@ const SHORT = {
   ],
 };
 
-/** On another page, without the policy of content: what `read(video)` resolves to, of the file of a video that is loaded. */
+/** On another page, without the policy of content: what `read(video)` resolves to, of a file; the video is loaded. */
 async function readVideo(page, path, read) {
   const bytes = await readFile(path);
   assert.equal(bytes.readUInt32BE(0), 0x1a45dfa3, "EBML");
