@@ -1,7 +1,10 @@
 #include "core/geometry/disk_motion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 namespace fleetplan::core {
 namespace {
@@ -37,10 +40,6 @@ class Extent {
   double begin_ = kForever;
   double end_ = -kForever;
 };
-
-}  // namespace
-
-namespace {
 
 /// A part of the motion of one disk relative to another one, at constant relative acceleration.
 struct Parabola {
@@ -80,8 +79,11 @@ bool comes_near(const Parabola& motion, double reach) {
   return comes_near(motion.half(false), reach) || comes_near(motion.half(true), reach);
 }
 
-bool have_ramps(const MovingDisk& a, const MovingDisk& b) {
-  return std::abs(a.ramp) + std::abs(b.ramp) > 0.0;
+bool have_ramps(const MovingDisk& a, const MovingDisk& b) { return a.ramp != 0.0 || b.ramp != 0.0; }
+
+/// Apart from collide(), whose every instruction counts.
+[[gnu::noinline]] bool collide_with_ramps(const MovingDisk& a, const MovingDisk& b, double reach) {
+  return comes_near(relative_motion(a, b), reach);
 }
 
 }  // namespace
@@ -91,8 +93,8 @@ bool collide(const MovingDisk& a, const MovingDisk& b, double reach) {
   const double end = std::min(a.t_end, b.t_end);
   if (begin > end) return false;
   if (have_ramps(a, b)) [[unlikely]]
-    return comes_near(relative_motion(a, b), reach);
-  const Position q = a.at(begin) - b.at(begin);
+    return collide_with_ramps(a, b, reach);
+  const Position q = a.at_mean_speed(begin) - b.at_mean_speed(begin);
   const Position v = a.velocity - b.velocity;
   const double qq = q.squaredNorm();
   const double rr = reach * reach;
@@ -160,7 +162,7 @@ UnsafeInterval forbidden_departures_with_ramps(MovingDisk mine, double duration,
 
 UnsafeInterval forbidden_departures(const Position& from, const Position& velocity, double duration,
                                     const MovingDisk& b, double reach, double ramp) {
-  if (std::abs(ramp) + std::abs(b.ramp) > 0.0) {
+  if (ramp != 0.0 || b.ramp != 0.0) {
     MovingDisk mine;
     mine.from = from;
     mine.velocity = velocity;
@@ -208,12 +210,12 @@ UnsafeInterval forbidden_departures(const Position& from, const Position& veloci
 
 namespace {
 
-/// The motion of `a` relative to `b` while both last.
+/// The motion of `a` relative to `b` while both last, at constant speed.
 struct Relative {
   Relative(const MovingDisk& a, const MovingDisk& b)
       : t_begin(std::max(a.t_start, b.t_start)),
         t_end(std::min(a.t_end, b.t_end)),
-        from(a.at(t_begin) - b.at(t_begin)),
+        from(a.at_mean_speed(t_begin) - b.at_mean_speed(t_begin)),
         velocity(a.velocity - b.velocity),
         speed_squared(velocity.squaredNorm()) {}
 
@@ -224,44 +226,93 @@ struct Relative {
   double speed_squared;
 };
 
-}  // namespace
+/// Where a function changes its sign between two shares, the first of which `is_before` that.
+template <class IsBefore>
+double change_between(double first, double last, const IsBefore& is_before) {
+  constexpr int kHalvings = 60;  // more digits than a share in [0, 1] has
+  for (int k = 0; k < kHalvings; ++k) {
+    const double middle = 0.5 * (first + last);
+    (is_before(middle) ? first : last) = middle;
+  }
+  return last;
+}
 
-namespace {
+/// The squared distance of a parabola from the origin, by the share x of its time, in [0, 1]: that of
+/// from + x slope + x^2 bend.
+class SquaredDistance {
+ public:
+  explicit SquaredDistance(const Parabola& motion)
+      : from_(motion.from), slope_(motion.to - motion.from - motion.bend), bend_(motion.bend) {
+    add_extrema();
+  }
+
+  double at(double x) const { return (from_ + x * (slope_ + x * bend_)).squaredNorm(); }
+
+  double nearest_share() const {
+    return *std::min_element(borders_.begin(), borders_.begin() + count_,
+                             [&](double x, double y) { return at(x) < at(y); });
+  }
+
+  /// The first share at which it is below a value, up to rounding; none if it never is.
+  std::optional<double> first_below(double value) const {
+    if (at(0.0) < value) return 0.0;
+    for (std::ptrdiff_t k = 1; k < count_; ++k) {
+      if (at(borders_[k]) >= value) continue;
+      return change_between(borders_[k - 1], borders_[k], [&](double x) { return at(x) >= value; });
+    }
+    return std::nullopt;
+  }
+
+ private:
+  /// Half of its derivative.
+  double rise(double x) const { return (from_ + x * (slope_ + x * bend_)).dot(slope_ + 2.0 * x * bend_); }
+
+  /// Its derivative, a cubic, has at most one root on each side of its own extrema.
+  void add_extrema() {
+    const double c = slope_.squaredNorm() + 2.0 * from_.dot(bend_);
+    const double b = 3.0 * slope_.dot(bend_);
+    const double a = 6.0 * bend_.squaredNorm();  // the second derivative is c + 2 b x + a x^2
+    std::array<double, 4> parts{0.0, 0.0, 0.0, 1.0};
+    const double discriminant = b * b - a * c;
+    if (discriminant > 0.0) {
+      const double q = -(b + std::copysign(std::sqrt(discriminant), b));
+      const auto within = [](double x) { return x > 0.0 && x < 1.0 ? x : 0.0; };  // 0 without such a root
+      parts[1] = within(q / a);
+      parts[2] = within(c / q);
+      if (parts[1] > parts[2]) std::swap(parts[1], parts[2]);
+    }
+    for (std::size_t k = 1; k < parts.size(); ++k) {
+      const bool falls = rise(parts[k - 1]) < 0.0;
+      if (falls == (rise(parts[k]) < 0.0)) continue;
+      const auto is_before = [&](double x) { return (rise(x) < 0.0) == falls; };
+      borders_[count_++] = change_between(parts[k - 1], parts[k], is_before);
+    }
+    borders_[count_++] = 1.0;
+  }
+
+  Position from_;
+  Position slope_;
+  Position bend_;
+  /// It is monotone between two of the first `count_`, which ascend from 0 to 1.
+  std::array<double, 5> borders_{};
+  std::ptrdiff_t count_ = 1;
+};
 
 /// The first time at which the parabola is nearer than `reach` to the origin or, going back, the last one.
 std::optional<double> first_near(const Parabola& motion, double reach, bool back) {
-  const double sag = motion.sag();
-  const double distance = distance_to_segment({0.0, 0.0}, {motion.from, motion.to});
-  if (distance >= reach + sag) return std::nullopt;
-  const Position& begin = back ? motion.to : motion.from;
-  if (begin.squaredNorm() < reach * reach) return back ? motion.t_end : motion.t_begin;
-  if (sag <= kParabolaError || motion.t_end - motion.t_begin <= kDepartureError) {
-    const double share = nearest_share({motion.from, motion.to}, {0.0, 0.0});
-    return distance < reach ? std::optional(motion.t_begin + share * (motion.t_end - motion.t_begin))
-                            : std::nullopt;
-  }
-  if (const auto found = first_near(motion.half(back), reach, back)) return found;
-  return first_near(motion.half(!back), reach, back);
-}
-
-/// Where a part of the motion is nearer to the origin than the best point so far.
-Approach nearest(const Parabola& motion, const Approach& best) {
-  const double sag = motion.sag();
-  const double share = nearest_share({motion.from, motion.to}, {0.0, 0.0});
-  const double distance = (motion.from + share * (motion.to - motion.from)).norm();
-  if (distance - sag >= best.distance) return best;
-  // Errors of small parts may add up, to some nanometres.
-  if (sag <= kParabolaError) return {motion.t_begin + share * (motion.t_end - motion.t_begin), distance};
-  return nearest(motion.half(true), nearest(motion.half(false), best));
+  const Parabola way =
+      back ? Parabola{motion.to, motion.from, motion.bend, motion.t_end, motion.t_begin} : motion;
+  const auto share = SquaredDistance(way).first_below(reach * reach);
+  return share ? std::optional(way.t_begin + *share * (way.t_end - way.t_begin)) : std::nullopt;
 }
 
 }  // namespace
 
 Approach nearest_approach(const MovingDisk& a, const MovingDisk& b) {
   const Parabola motion = relative_motion(a, b);
-  const Approach at_begin{motion.t_begin, motion.from.norm()};
-  const Approach at_end{motion.t_end, motion.to.norm()};
-  return nearest(motion, at_begin.distance <= at_end.distance ? at_begin : at_end);
+  const SquaredDistance distance(motion);
+  const double share = distance.nearest_share();
+  return {motion.t_begin + share * (motion.t_end - motion.t_begin), std::sqrt(distance.at(share))};
 }
 
 std::optional<OverlapTime> overlap(const MovingDisk& a, const MovingDisk& b, double reach) {

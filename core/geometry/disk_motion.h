@@ -18,6 +18,9 @@
 // from there, its ends are found by bisection, rounded outwards by kDepartureError. Whether two disks collide
 // is decided on chords of their relative motion, a parabola, which deviates from its chord by no more than
 // a T^2 / 8 in a time T; halves are looked at until that is below kParabolaError.
+//
+// When they are nearest to each other, and when they are too near, is exact: the squared distance is of
+// degree four in time, and monotone between the roots of its derivative.
 
 #include <optional>
 
@@ -27,7 +30,7 @@ namespace fleetplan::core {
 
 /// The error of departures of motion at constant acceleration, seconds.
 inline constexpr double kDepartureError = 1e-10;
-/// The error of distances of motion at constant acceleration, metres; far below kSearchSlack.
+/// The error of the distances of collisions at constant acceleration, metres; far below kSearchSlack.
 inline constexpr double kParabolaError = 1e-11;
 
 /// A disk that moves along a timed segment, with its velocity computed once.
@@ -46,8 +49,10 @@ struct MovingDisk {
         t_end(segment.t_end),
         ramp(segment.ramp) {}
 
+  /// Where it is if it keeps its mean speed.
+  Position at_mean_speed(double t) const { return from + velocity * (t - t_start); }
   Position at(double t) const {
-    if (ramp == 0.0) return from + velocity * (t - t_start);
+    if (ramp == 0.0) return at_mean_speed(t);
     const double duration = t_end - t_start;
     return from + velocity * (duration * covered_share((t - t_start) / duration, ramp));
   }
