@@ -1,6 +1,8 @@
 #include "api/request/fleet/parse_robots.h"
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -92,39 +94,33 @@ ParsedGoals parse_goals(const JsonReader& robot, const WorldFrame& frame, Quota&
 
 namespace {
 
-constexpr std::array<std::string_view, 21> kRobotMembers{"id",
-                                                         "radius",
-                                                         "linear_speed",
-                                                         "angular_speed",
-                                                         "linear_acceleration",
-                                                         "linear_deceleration",
-                                                         "angular_acceleration",
-                                                         "may_reverse",
-                                                         "vicinity",
-                                                         "execution_margin",
-                                                         "stop_distance",
-                                                         "body_radius",
-                                                         "start",
-                                                         "goal",
-                                                         "goals",
-                                                         "goal_age",
-                                                         "weight",
-                                                         "idle",
-                                                         "committed",
-                                                         "previous",
-                                                         "metadata"};
+// What `robot_defaults` can give as well.
+constexpr std::array<std::string_view, 11> kTraits{"radius",
+                                                   "linear_speed",
+                                                   "angular_speed",
+                                                   "linear_acceleration",
+                                                   "linear_deceleration",
+                                                   "angular_acceleration",
+                                                   "may_reverse",
+                                                   "vicinity",
+                                                   "execution_margin",
+                                                   "stop_distance",
+                                                   "body_radius"};
+
+/// Returns the names of `id`, all traits, and then these members.
+template <std::size_t count>
+constexpr std::array<std::string_view, 1 + kTraits.size() + count> members_of_robot(
+    const std::array<std::string_view, count>& others) {
+  std::array<std::string_view, 1 + kTraits.size() + count> members{"id"};
+  std::copy(kTraits.begin(), kTraits.end(), members.begin() + 1);
+  std::copy(others.begin(), others.end(), members.begin() + 1 + kTraits.size());
+  return members;
+}
+
+constexpr auto kRobotMembers = members_of_robot(std::array<std::string_view, 9>{
+    "start", "goal", "goals", "goal_age", "weight", "idle", "committed", "previous", "metadata"});
+constexpr auto kLoneRobotMembers = members_of_robot(std::array<std::string_view, 1>{"metadata"});
 constexpr std::array<std::string_view, 3> kIdle{"stay", "yield", "return"};  // see Idle
-constexpr std::array<std::string_view, 11> kDefaults{"radius",
-                                                     "linear_speed",
-                                                     "angular_speed",
-                                                     "linear_acceleration",
-                                                     "linear_deceleration",
-                                                     "angular_acceleration",
-                                                     "may_reverse",
-                                                     "vicinity",
-                                                     "execution_margin",
-                                                     "stop_distance",
-                                                     "body_radius"};
 
 /// A number that `robot_defaults` can give as well.
 struct Trait {
@@ -315,7 +311,7 @@ class RobotReader {
 std::vector<ParsedRobot> parse_robots(const JsonReader& robots, const JsonReader& defaults,
                                       const WorldFrame& frame, const Limits& limits, UniqueIds& ids) {
   if (!robots) return {};
-  const Traits common = parse_traits(defaults.object(kDefaults));
+  const Traits common = parse_traits(defaults.object(kTraits));
   const JsonReader items = robots.array();
   if (!items) return {};
   if (items.size() == 0) items.fault(fault::kEmpty, "robots must contain at least one robot.");
@@ -336,21 +332,8 @@ std::vector<ParsedRobot> parse_robots(const JsonReader& robots, const JsonReader
 }
 
 std::optional<core::Robot> parse_lone_robot(const JsonReader& robot) {
-  constexpr std::array<std::string_view, 13> kMembers{"id",
-                                                      "radius",
-                                                      "linear_speed",
-                                                      "angular_speed",
-                                                      "linear_acceleration",
-                                                      "linear_deceleration",
-                                                      "angular_acceleration",
-                                                      "may_reverse",
-                                                      "vicinity",
-                                                      "execution_margin",
-                                                      "stop_distance",
-                                                      "body_radius",
-                                                      "metadata"};
   const std::size_t before = robot.fault_count();
-  const JsonReader json = robot.object(kMembers);
+  const JsonReader json = robot.object(kLoneRobotMembers);
   if (!json) return std::nullopt;
   core::Robot read;
   read.id = json.find("id").name().value_or("");

@@ -283,6 +283,8 @@ class MotionCheck {
   ViolationList violations_;
 };
 
+constexpr std::size_t kBetweenPolls = 64;
+
 }  // namespace
 
 std::optional<Violation> find_unusable_number(std::size_t index, const Robot& robot, const RobotPlan* plan) {
@@ -318,12 +320,6 @@ ViolationList check_motion(const Robot& robot, const RobotPlan& plan, std::size_
                            const Tolerance& tolerance, const StopCondition& stop) {
   return MotionCheck(robot, plan, tolerance).run(given, stop);
 }
-
-namespace {
-
-constexpr std::size_t kBetweenPolls = 64;
-
-}  // namespace
 
 ViolationList check_waits(const Robot& robot, const RobotPlan& plan, double wait, const Tolerance& tolerance,
                           const StopCondition& stop) {
