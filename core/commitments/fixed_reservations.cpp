@@ -73,6 +73,8 @@ FixedReservations::FixedReservations(double width, double height, std::vector<Ro
   for (const Robot& robot : robots_) {
     largest = std::max(largest, robot.disk.pair_radius);
     if (!robot.committed.empty()) empty_ = false;
+    has_ramps_ = has_ramps_ || std::any_of(robot.committed.begin(), robot.committed.end(),
+                                           [](const SizedSegment& segment) { return segment.ramp != 0.0; });
   }
   if (!obstacles.empty()) empty_ = false;
   if (empty_) return;

@@ -50,6 +50,8 @@ class FixedReservations {
   bool known() const { return known_; }
   /// The number of parts, see Occupant.
   std::size_t count() const { return owners_.size(); }
+  /// Whether committed motion changes its speed.
+  bool has_ramps() const { return has_ramps_; }
   const Robot& robot(std::size_t index) const { return robots_[index]; }
   /// Whether the robot stands at the place where its committed motion ends, or moves from there.
   bool departs(std::size_t robot, const Position& from) const;
@@ -88,6 +90,7 @@ class FixedReservations {
   std::vector<Owner> owners_;  // of the disks of the tree
   bool empty_ = true;
   bool known_ = true;
+  bool has_ramps_ = false;
 };
 
 }  // namespace fleetplan::core

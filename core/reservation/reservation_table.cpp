@@ -186,7 +186,11 @@ ReservationTable::ReservationTable(double width, double height, double cell_size
 
 ReservationTable::~ReservationTable() = default;
 
-bool ReservationTable::is_costly() const { return fixed_ != nullptr && fixed_->count() > kManyFixed; }
+/// Departures past robots that change their speed are found by bisection.
+bool ReservationTable::is_costly() const {
+  if (index_->has_ramps()) return true;
+  return fixed_ != nullptr && (fixed_->count() > kManyFixed || fixed_->has_ramps());
+}
 
 double ReservationTable::departure(std::size_t robot) const {
   return fixed_ != nullptr ? fixed_->robot(robot).t_departure : 0.0;
@@ -249,14 +253,17 @@ std::optional<double> ReservationTable::earliest_departure(const Footprint& foot
   const auto visit = [&](const Occupant& other) {
     return departure.delay_past(other.disk, collision_distance(other), margin_);
   };
+  const bool has_ramp = ramp != 0.0;
   // Bounded: each round is later than a reservation that the one before met.
   while (departure.is_delayed()) {
     departure.begin_round();
     index.grid().walk(path.from, path.to, [&](std::size_t bucket, double enter, double exit) {
-      const double entered = elapsed_share(enter, ramp) * duration;
-      const double left = elapsed_share(exit, ramp) * duration;
-      while (!index.visit(robot, bucket, mine.t_start + entered - margin_, mine.t_start + left + margin_,
-                          visit)) {
+      if (has_ramp) [[unlikely]] {
+        enter = elapsed_share(enter, ramp);
+        exit = elapsed_share(exit, ramp);
+      }
+      while (!index.visit(robot, bucket, mine.t_start + enter * duration - margin_,
+                          mine.t_start + exit * duration + margin_, visit)) {
         if (departure.is_never()) return false;
       }
       return true;

@@ -60,6 +60,7 @@ SegmentIndex::DiskId SegmentIndex::store(std::size_t robot, const SizedSegment& 
                                 : Endpoint::none;
   const double radius = disks_[robot].pair_radius_with(segment.radius);
   const Occupant occupant{MovingDisk(segment), radius, robot, endpoint};
+  has_ramps_ = has_ramps_ || segment.ramp != 0.0;
   if (vacant_.empty()) return occupants_.push_back(occupant);
   const DiskId id = vacant_.back();
   vacant_.pop_back();

@@ -35,6 +35,8 @@ class SegmentIndex {
 
   const LargestDisk& disk(std::size_t robot) const { return disks_[robot]; }
   const BucketGrid& grid() const { return grid_; }
+  /// Whether a segment that is or was in the index changes its speed.
+  bool has_ramps() const { return has_ramps_; }
   /// Null if no two robots are in contact.
   const Contacts* contacts() const { return contacts_; }
 
@@ -100,6 +102,7 @@ class SegmentIndex {
   std::vector<DiskId> vacant_;
   std::vector<std::vector<DiskId>> held_;  // by robot
   std::vector<char> ignored_;              // by robot; not bool, for speed
+  bool has_ramps_ = false;
 };
 
 }  // namespace fleetplan::core

@@ -16,17 +16,6 @@ void DominanceTable::reset(const Motion& motion, double slack) {
   arrivals_.clear();
 }
 
-double DominanceTable::dominated_from(int interval, double heading) const {
-  double from = kForever;
-  for (ArrivalId id = first_[interval]; id != ArrivalId::none;) {
-    const Arrival& arrival = arrivals_[id];
-    const double ready = motion_->rotation_time(arrival.heading, heading) + motion_->wait_before_move;
-    from = std::min(from, arrival.time + (slack_ > 0.0 ? -slack_ : ready));
-    id = arrival.next;
-  }
-  return from;
-}
-
 bool DominanceTable::contains(int interval, double time, double heading) const {
   for (ArrivalId id = first_[interval]; id != ArrivalId::none;) {
     const Arrival& arrival = arrivals_[id];

@@ -165,7 +165,16 @@ class DominanceTable {
 
   /// The time from which arrivals with this heading are dominated. The added wait is included: an earlier
   /// arrival may need it, a later one that continues straight does not.
-  double dominated_from(int interval, double heading) const;
+  double dominated_from(int interval, double heading) const {
+    double from = kForever;
+    for (ArrivalId id = first_[interval]; id != ArrivalId::none;) {
+      const Arrival& arrival = arrivals_[id];
+      const double ready = motion_->rotation_time(arrival.heading, heading) + motion_->wait_before_move;
+      from = std::min(from, arrival.time + (slack_ > 0.0 ? -slack_ : ready));
+      id = arrival.next;
+    }
+    return from;
+  }
 
   /// Returns whether an arrival at the same time with the same heading is in the table.
   bool contains(int interval, double time, double heading) const;

@@ -14,7 +14,9 @@ Successors::Successors(const ReservationTable& table, SearchSpace& space, const 
       motion_(space.vertices().motion()),
       vertices_(space.vertices()),
       zones_(space.vertices().limit_speeds() ? space.vertices().zones() : nullptr),
-      changes_radius_(space.changes_radius()) {}
+      changes_radius_(space.changes_radius()),
+      has_parts_(zones_ != nullptr || motion_.linear_inertia.any()),
+      may_continue_(motion_.wait_before_move > 0.0 && !motion_.linear_inertia.any()) {}
 
 PlaceId Successors::place_of(int vertex, int stage) {
   const int number = changes_radius_ ? goals_.stage(stage).first_vertex + vertex : vertex;
@@ -132,8 +134,7 @@ inline Move Successors::move_between(LabelId from, PlaceId target, bool reverse)
   if (label.parent == LabelId::none && space_.any_heading_at_start()) rotation = 0.0;
   move.ready = label.arrival + rotation + motion_.wait_before_move;
   move.latest = changes_radius_ ? goals_.latest_departure(label) : state_.intervals[label.interval].end;
-  move.continues_straight = label.by_translation && label.reverse == reverse &&
-                            motion_.wait_before_move > 0.0 && !motion_.linear_inertia.any() &&
+  move.continues_straight = may_continue_ && label.by_translation && label.reverse == reverse &&
                             angle_between(label.heading, move.heading) <= kSameHeading;
   move.arrival = label.arrival;
   return move;
@@ -185,7 +186,7 @@ std::vector<TimedSegment> parts_of(const std::vector<DriveZones::Piece>& pieces)
 
 std::optional<double> Successors::departure(const Segment& path, double duration, double t_min, double t_max,
                                             const Footprint& footprint) const {
-  if (zones_ != nullptr || motion_.linear_inertia.any()) {
+  if (has_parts_) {
     const std::vector<TimedSegment> parts = parts_of(vertices_.pieces(path));
     if (parts.size() > 1 || parts.front().ramp != 0.0) return departure_of(parts, t_min, t_max, footprint);
   }

@@ -87,6 +87,8 @@ class Successors {
   const Vertices& vertices_;  // of the first stage
   const DriveZones* zones_;   // that limit speeds; null for none
   const bool changes_radius_;
+  const bool has_parts_;     // whether moves may have parts of different speeds
+  const bool may_continue_;  // whether a move may go on from the one before without the added wait
 };
 
 template <class Visit>
