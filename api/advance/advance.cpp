@@ -208,14 +208,13 @@ bool drives(const core::Robot& robot, const Execution& execution, const Progress
 }
 
 bool needs_time_to_stop(const core::Robot& robot) {
-  return robot.linear_inertia().any() || robot.angular_inertia().any();
+  return robot.linear_inertia().is_limited || robot.angular_inertia().is_limited;
 }
 
 /// Whether the actions from an index on have the profiles that those of a plan for the robot have.
 bool have_profiles(const Actions& actions, std::size_t first, const core::Robot& robot) {
   const auto has_its_own = [&](const Action& action) {
-    if (action.type == Action::Type::wait || action.profile) return true;
-    return !(action.type == Action::Type::rotate ? robot.angular_inertia() : robot.linear_inertia()).any();
+    return action.profile || !robot.inertia_of(action.type).is_limited;
   };
   const auto begin = actions.begin() + static_cast<std::ptrdiff_t>(std::min(first, actions.size()));
   return std::all_of(begin, actions.end(), has_its_own);
@@ -370,7 +369,7 @@ Place place_of(const core::Robot& robot, const Execution& execution, const Momen
   if (progress.action == actions.size()) return actions.empty() ? Place{} : Place{actions.size() - 1, 1.0};
   const Action& action = actions[progress.action];
   const bool takes_time = action.t_end > action.t_start;
-  return {progress.action, takes_time ? share_at(action, progress.t) : 0.0};
+  return {progress.action, takes_time ? core::share_at(action, progress.t) : 0.0};
 }
 
 std::vector<double> margins_of(const std::vector<core::Robot>& robots,

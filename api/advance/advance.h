@@ -187,10 +187,6 @@ std::vector<core::Action> resumed_after(const std::vector<core::Action>& stopped
 /// All actions, of which one under way at `t` becomes two: the robot stands at `t`, see stopped_by().
 std::vector<core::Action> split_at(const std::vector<core::Action>& actions, double t);
 
-/// The share of an action, in [0, 1], that is covered at a time within it; and the inverse.
-double share_at(const core::Action& action, double t);
-double time_at_share(const core::Action& action, double share);
-
 /// The parts of an action before and after a time within it. A part with a profile begins, or ends, at the
 /// speed that the robot has then.
 core::Action part_until(core::Action action, double t);

@@ -137,7 +137,7 @@ class Clearing {
     double early = cannot_stop_before(robot);
     if (cannot_stop_before(other) == 0.0 || early >= late || may_stand(robot, late, other)) return;
     if (!may_stand(robot, early, other)) return;
-    for (int k = 0; k < kHalvings; ++k) {
+    for (int k = 0; k < kHalvings && !stop_.met(); ++k) {
       const double middle = 0.5 * (early + late);
       (may_stand(robot, middle, other) ? early : late) = middle;
     }
@@ -151,7 +151,8 @@ class Clearing {
         std::find_if(mine.begin(), mine.end(), [&](const Piece& piece) { return t < piece.end; });
     stop_.met_after(kWorkOfAPiece * (mine.size() + pieces_[other].size()));
     Piece stay{t, mine.back().end, at_t->at(t), {0.0, 0.0}, at_t->radius};
-    if (robots_[robot].linear_inertia().any()) {
+    if (robots_[robot].linear_inertia().is_limited) {
+      stop_.met_after(kWorkOfAnAction * robots_[robot].committed.size());
       const Actions stopped = stopped_by(robots_[robot].committed, t);
       stay.from = stopped.empty() ? robots_[robot].start.position : stopped.back().to.position;
     }

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "api/advance/advance.h"
-#include "core/geometry/angle.h"
+#include "core/geometry/tolerance.h"
 
 namespace fleetplan::api {
 
@@ -22,14 +22,13 @@ constexpr double kRoundedTime = 1e-9;
 /// An action that has less left is done (metres or radians).
 constexpr double kLeft = 1e-9;
 
-/// Metres of a translation, radians of a rotation.
-double amount(const Action& action) {
-  return action.type == Action::Type::rotate ? core::angle_between(action.from.theta, action.to.theta)
-                                             : (action.to.position - action.from.position).norm();
-}
+/// Whether the robot goes on at speed after this action.
+bool ends_at_speed(const Action& action) { return action.profile && action.profile->end > 0.0; }
 
-double speed_at(const Action& action, double t) {
-  return core::speed_after(*action.profile, action.t_end - action.t_start, t - action.t_start);
+/// The first of the actions up to an index that follow each other at speed.
+std::size_t begin_of_chain(const Actions& actions, std::size_t index) {
+  while (index > 0 && ends_at_speed(actions[index - 1])) --index;
+  return index;
 }
 
 /// Brakes from the end of the last of the driven actions on, which is a part of the one with this index.
@@ -63,28 +62,32 @@ void brake(Actions& driven, const Actions& actions, std::size_t index) {
   }
 }
 
+/// When a robot that drives these translations, which follow each other at speed, begins to brake so that it
+/// stands at `t`; at their begin if that is too late.
+double brakes_from(const Actions& chain, double t) {
+  // A robot that brakes at speed v stands v times `fall` later. The time at which it stands grows with the
+  // time at which it brakes as long as it speeds up or cruises; while it slows down, it brakes already.
+  for (const Action& action : chain) {
+    const core::SpeedProfile& profile = *action.profile;
+    const double braking = profile.cruise * profile.inertia.fall;  // seconds, from the cruise speed
+    const double cruises = action.t_start + profile.rise_time();
+    const double slows = action.t_end - profile.fall_time();
+    if (t < cruises + braking) {
+      const double before = (cruises + braking - t) / (1.0 + profile.inertia.fall / profile.inertia.rise);
+      return std::max(action.t_start, cruises - before);
+    }
+    if (t < slows + braking - core::kSameTime) return t - braking;
+  }
+  return chain.back().t_end;
+}
+
 }  // namespace
-
-double share_at(const Action& action, double t) {
-  const double duration = action.t_end - action.t_start;
-  if (duration <= 0.0) return 1.0;
-  const double elapsed = std::clamp((t - action.t_start) / duration, 0.0, 1.0);
-  const double whole = action.profile ? amount(action) : 0.0;
-  if (whole <= 0.0) return elapsed;
-  return std::clamp(core::covered_after(*action.profile, duration, elapsed * duration) / whole, 0.0, 1.0);
-}
-
-double time_at_share(const Action& action, double share) {
-  const double duration = action.t_end - action.t_start;
-  if (!action.profile) return action.t_start + share * duration;
-  return action.t_start + core::elapsed_at(*action.profile, duration, share * amount(action));
-}
 
 Action part_until(Action action, double t) {
   const core::Pose to = pose_at(action, t);
   if (action.profile) {
-    const double speed = speed_at(action, t);
-    if (t - action.t_start < action.profile->rise_time()) action.profile->cruise = speed;
+    const double speed = core::speed_at(action, t);
+    if (t - action.t_start <= action.profile->rise_time()) action.profile->cruise = speed;
     action.profile->end = speed;
   }
   action.to = to;
@@ -95,7 +98,7 @@ Action part_until(Action action, double t) {
 Action part_from(Action action, double t) {
   const core::Pose from = pose_at(action, t);
   if (action.profile) {
-    const double speed = speed_at(action, t);
+    const double speed = core::speed_at(action, t);
     if (t > action.t_end - action.profile->fall_time()) action.profile->cruise = speed;
     action.profile->start = speed;
   }
@@ -106,16 +109,13 @@ Action part_from(Action action, double t) {
 
 std::size_t end_of_chain(const Actions& actions, std::size_t first) {
   std::size_t last = first;
-  while (last + 1 < actions.size() && actions[last].profile && actions[last].profile->end > 0.0 &&
-         actions[last + 1].profile) {
-    ++last;
-  }
+  while (last + 1 < actions.size() && ends_at_speed(actions[last]) && actions[last + 1].profile) ++last;
   return last + 1;
 }
 
 Actions driven_from(Actions chain, double t, double speed) {
   std::vector<core::LimitedPart> parts;
-  for (const Action& action : chain) parts.push_back({amount(action), action.profile->cruise});
+  for (const Action& action : chain) parts.push_back({core::amount_of(action), action.profile->cruise});
   const auto profiles = core::fastest_profiles(parts, chain.front().profile->inertia, speed);
   for (std::size_t k = 0; k < chain.size(); ++k) {
     chain[k].profile = profiles[k];
@@ -127,10 +127,9 @@ Actions driven_from(Actions chain, double t, double speed) {
 }
 
 Actions at_rest_in_the_end(Actions actions) {
-  if (actions.empty() || !actions.back().profile || actions.back().profile->end <= 0.0) return actions;
-  std::size_t first = actions.size() - 1;
-  while (first > 0 && actions[first - 1].profile && actions[first - 1].profile->end > 0.0) --first;
-  const auto begin = actions.begin() + static_cast<std::ptrdiff_t>(first);
+  if (actions.empty() || !ends_at_speed(actions.back())) return actions;
+  const auto begin =
+      actions.begin() + static_cast<std::ptrdiff_t>(begin_of_chain(actions, actions.size() - 1));
   const Actions chain = driven_from(Actions(begin, actions.end()), begin->t_start, begin->profile->start);
   std::copy(chain.begin(), chain.end(), begin);
   return actions;
@@ -166,34 +165,20 @@ Actions stopped_by(const Actions& actions, double t) {
   std::size_t index = 0;
   while (index < actions.size() && actions[index].t_end <= t + kRoundedTime) ++index;
   const bool is_cut = index < actions.size() && actions[index].t_start < t - kRoundedTime;
-  const bool ends_at_speed = index > 0 && actions[index - 1].profile && actions[index - 1].profile->end > 0.0;
-  if (!ends_at_speed && !(is_cut && actions[index].profile)) return executed_until(actions, t);
+  const bool is_between = index > 0 && ends_at_speed(actions[index - 1]);
+  if (!is_between && !(is_cut && actions[index].profile)) return executed_until(actions, t);
   // The translations that follow each other at speed, from rest or from the begin of the actions.
-  std::size_t first = ends_at_speed && !is_cut ? index - 1 : index;
-  while (first > 0 && actions[first - 1].profile && actions[first - 1].profile->end > 0.0) --first;
+  const std::size_t first = begin_of_chain(actions, is_between && !is_cut ? index - 1 : index);
   const auto begin = actions.begin() + static_cast<std::ptrdiff_t>(first);
   Actions stopped(actions.begin(), begin);
   const Actions chain(begin, actions.begin() + static_cast<std::ptrdiff_t>(end_of_chain(actions, first)));
-  const bool stands = chain.front().profile->start <= 0.0;
-  double early = chain.front().t_start;
-  double late = t;
-  Actions best = braked(chain, early);
-  if (chain.front().type == Action::Type::rotate) best = stands ? Actions() : chain;
-  const double end = best.empty() ? early : best.back().t_end;
-  if (end < t && chain.front().type == Action::Type::translate) {
-    constexpr int kHalvings = 50;
-    for (int k = 0; k < kHalvings; ++k) {
-      const double middle = 0.5 * (early + late);
-      Actions tried = braked(chain, middle);
-      if (!tried.empty() && tried.back().t_end <= t) {
-        early = middle;
-        best = std::move(tried);
-      } else {
-        late = middle;
-      }
-    }
+  Actions to_rest;
+  if (chain.front().type == Action::Type::translate) {
+    to_rest = braked(chain, brakes_from(chain, t));
+  } else if (chain.front().profile->start > 0.0) {
+    to_rest = chain;
   }
-  stopped.insert(stopped.end(), best.begin(), best.end());
+  stopped.insert(stopped.end(), to_rest.begin(), to_rest.end());
   return stopped;
 }
 
@@ -203,7 +188,7 @@ Actions resumed_after(const Actions& stopped, const Actions& actions) {
   const std::size_t index = stopped.size() - 1;
   const Action& last = stopped.back();
   const Action& planned = actions[index];
-  const double left = amount(planned) - amount(last);
+  const double left = core::amount_of(planned) - core::amount_of(last);
   std::size_t next = index + 1;
   double late = 0.0;
   if (last.profile && (left > kLeft || (planned.profile && planned.profile->end > 0.0))) {

@@ -31,7 +31,7 @@ Actions before_place(const Actions& actions, const Place& place) {
   Actions before(actions.begin(), actions.begin() + index);
   if (place.fraction > 0.0) {
     const Action& part = actions[place.action];
-    before.push_back(part_until(part, time_at_share(part, place.fraction)));
+    before.push_back(part_until(part, core::time_at_share(part, place.fraction)));
   }
   return at_rest_in_the_end(std::move(before));
 }

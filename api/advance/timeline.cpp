@@ -63,7 +63,7 @@ std::optional<double> time_of(const Action& action, const Pose& pose, double at,
     const core::Position nearest = action.from.position + along * (action.to.position - action.from.position);
     const bool is_near = (nearest - pose.position).norm() <= tolerance &&
                          core::angle_between(action.from.theta, pose.theta) <= tolerance;
-    return is_near ? std::optional(time_at_share(action, along)) : std::nullopt;
+    return is_near ? std::optional(core::time_at_share(action, along)) : std::nullopt;
   }
   if ((action.from.position - pose.position).norm() > tolerance) return std::nullopt;
   const double left = core::rotation_between(pose.theta, action.to.theta);
@@ -75,7 +75,7 @@ std::optional<double> time_of(const Action& action, const Pose& pose, double at,
   const double done = whole != 0.0 ? 1.0 - left / whole : 1.0;
   const double slack = whole != 0.0 ? tolerance / std::abs(whole) : 0.0;
   if (done < -slack || done > 1.0 + slack) return std::nullopt;
-  return time_at_share(action, std::clamp(done, 0.0, 1.0));
+  return core::time_at_share(action, std::clamp(done, 0.0, 1.0));
 }
 
 /// The duration of an action with another length, or angle, at its planned speed and no faster than the
@@ -113,7 +113,7 @@ void turn_back(Actions& driven, Actions& following, double planned_heading, cons
   if (angle <= core::kSameHeading) return;
   const double end = last.t_end + inertia.time(angle, angular_speed);
   driven.push_back({Action::Type::rotate, last.t_end, end, last.to, {last.to.position, planned_heading}});
-  if (inertia.any()) driven.back().profile = core::fastest_profile(angle, angular_speed, inertia);
+  if (inertia.is_limited) driven.back().profile = core::fastest_profile(angle, angular_speed, inertia);
 }
 
 /// The heading of a robot that drives along a path; backwards if it has planned to.
@@ -184,11 +184,6 @@ double wait_left(const core::Robot& robot, const Action& wait, double t, std::op
   return t < begin ? std::max(0.0, begin - at) + left : left;
 }
 
-double planned_speed(const Action& action, double t) {
-  if (!action.profile) return 0.0;
-  return core::speed_after(*action.profile, action.t_end - action.t_start, t - action.t_start);
-}
-
 /// The last of the actions from this one on that go on with the same service.
 std::size_t end_of_service(const Actions& actions, std::size_t index) {
   const auto goes_on = [&](std::size_t next) {
@@ -226,7 +221,7 @@ void append(Actions& actions, const Actions& following) {
 Pose pose_at(const Action& action, double t) {
   const double duration = action.t_end - action.t_start;
   double left = duration > 0.0 ? std::clamp((action.t_end - t) / duration, 0.0, 1.0) : 0.0;
-  if (action.profile) left = 1.0 - share_at(action, t);
+  if (action.profile) left = 1.0 - core::share_at(action, t);
   if (left == 1.0) return action.from;
   Pose pose = action.to;
   if (action.type == Action::Type::translate) {
@@ -260,7 +255,7 @@ std::optional<Progress> measured_progress(const core::Robot& robot, const Action
 
 Progress reported_progress(const Actions& actions, const ReportedState& reported) {
   const auto [action, fraction] = reported.place;
-  if (!reported.service_left) return {action, time_at_share(actions[action], fraction)};
+  if (!reported.service_left) return {action, core::time_at_share(actions[action], fraction)};
   const double begin = actions[action].t_start;
   return {action, *reported.service_left > kDone ? begin : actions[end_of_service(actions, action)].t_end};
 }
@@ -298,7 +293,7 @@ Remainder remainder_of_measured(const core::Robot& robot, const Actions& actions
   if (progress.action == actions.size()) return remainder(robot, actions, at);
   const Action& planned = actions[progress.action];
   return continued_from(robot, pose, planned, shifted(actions, progress.action + 1, at),
-                        std::max(0.0, planned.t_end - at), planned_speed(planned, progress.t));
+                        std::max(0.0, planned.t_end - at), core::speed_at(planned, progress.t));
 }
 
 Remainder remainder_of_reported(const core::Robot& robot, const Execution& execution,
@@ -311,7 +306,7 @@ Remainder remainder_of_reported(const core::Robot& robot, const Execution& execu
   return continued_from(robot, execution.measured.value_or(pose_at(planned, progress.t)), planned,
                         shifted(actions, last + 1, at),
                         wait_left(robot, planned, progress.t, service_left, at),
-                        speed ? std::abs(*speed) : planned_speed(planned, progress.t));
+                        speed ? std::abs(*speed) : core::speed_at(planned, progress.t));
 }
 
 bool goes_on(const Action& action, const Action& next) {
@@ -331,7 +326,7 @@ Actions driven_until(const Actions& actions, double metres) {
     metres -= whole;
     driven.push_back(action);
     if (share == 1.0) continue;
-    driven.back().t_end = time_at_share(action, share);
+    driven.back().t_end = core::time_at_share(action, share);
     driven.back().to = pose_at(action, driven.back().t_end);
   }
   return driven;

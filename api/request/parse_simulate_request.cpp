@@ -94,10 +94,7 @@ void join_actions(const JsonReader& member, const std::vector<core::Robot>& robo
   // Bounded: items are read until the Work ends.
   for (const JsonReader item : member.array().items()) {
     const core::Robot& robot = robots[plan->robot];
-    ActionsOwner owner{robot.start, std::nullopt, std::nullopt};
-    owner.linear_inertia = robot.linear_inertia();
-    owner.angular_inertia = robot.angular_inertia();
-    ActionChain chain(owner);
+    ActionChain chain({robot, robot.start, std::nullopt, std::nullopt});
     auto action = plan->actions.begin();
     for (const JsonReader part : item.find("actions").array().items()) {
       *action = chain.append(*action, part);

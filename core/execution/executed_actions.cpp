@@ -4,20 +4,10 @@
 #include <cmath>
 #include <optional>
 
-#include "core/geometry/angle.h"
 #include "core/model/itinerary.h"
 #include "core/model/radius_steps.h"
 
 namespace fleetplan::core {
-namespace {
-
-/// What the profile of an action covers: metres, or radians of a rotation.
-double amount_of(const Action& action) {
-  return action.type == Action::Type::rotate ? angle_between(action.from.theta, action.to.theta)
-                                             : (action.to.position - action.from.position).norm();
-}
-
-}  // namespace
 
 std::vector<Actions> executed_actions(const std::vector<Robot>& robots, const std::vector<RobotPlan>& plans) {
   std::vector<Actions> executed(robots.size());
@@ -30,10 +20,7 @@ std::vector<Actions> executed_actions(const std::vector<Robot>& robots, const st
 
 double planned_time(Actions actions, std::size_t action, double fraction) {
   const Action& planned = actions[action];
-  if (fraction >= 1.0) return planned.t_end;
-  const double duration = planned.t_end - planned.t_start;
-  if (!planned.profile) return planned.t_start + fraction * duration;
-  return planned.t_start + elapsed_at(*planned.profile, duration, fraction * amount_of(planned));
+  return fraction >= 1.0 ? planned.t_end : time_at_share(planned, fraction);
 }
 
 namespace {
@@ -123,14 +110,8 @@ double Pace::progress_at(double t) const {
       std::upper_bound(actions_.begin(), actions_.end(), t,
                        [](double time, const Action& action) { return time < action.t_end; });
   const auto index = static_cast<double>(under_way - actions_.begin());
-  if (under_way == actions_.end()) return index;
-  const double duration = under_way->t_end - under_way->t_start;
-  double done = (t - under_way->t_start) / duration;
-  if (under_way->profile) {
-    done = covered_after(*under_way->profile, duration, std::max(0.0, t - under_way->t_start)) /
-           amount_of(*under_way);
-  }
-  return index + std::clamp(done, 0.0, 1.0);
+  if (under_way == actions_.end() || t <= under_way->t_start) return index;
+  return index + share_at(*under_way, t);
 }
 
 double Pace::time_at(double progress) const {

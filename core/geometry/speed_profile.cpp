@@ -1,5 +1,8 @@
 #include "core/geometry/speed_profile.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/geometry/tolerance.h"
 
 namespace fleetplan::core {
@@ -58,6 +61,7 @@ double duration(const SpeedProfile& profile, double distance) {
 }
 
 double speed_after(const SpeedProfile& profile, double duration, double t) {
+  if (t <= 0.0) return profile.start;
   const double left = duration - t;
   if (t < profile.rise_time()) return std::min(profile.cruise, profile.start + t / profile.inertia.rise);
   if (left < profile.fall_time()) return std::min(profile.cruise, profile.end + left / profile.inertia.fall);

@@ -4,7 +4,6 @@
 // constant acceleration up to a cruise speed, at that speed, and at constant deceleration down from it. The
 // cruise takes no time where the way is short. Formulas: docs/acceleration.md.
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -17,18 +16,21 @@ struct Inertia {
   double rise = 0.0;  // seconds squared per metre: 1 / acceleration
   double fall = 0.0;  // 1 / deceleration
 
-  bool any() const { return rise + fall > 0.0; }
+  /// Whether there is a limit; every move of a search asks that.
+  bool is_limited = rise + fall > 0.0;
 
   /// Seconds from rest to rest over a distance (metres or radians, >= 0) at this greatest speed.
   double time(double distance, double speed) const {
-    if (!any()) [[likely]]
+    if (!is_limited) [[likely]]
       return distance / speed;
     const double mean = 0.5 * (rise + fall);
     return distance >= speed * speed * mean ? distance / speed + speed * mean
                                             : 2.0 * std::sqrt(distance * mean);
   }
   /// The part of that time that starting and stopping take; it never falls with the distance.
-  double loss(double distance, double speed) const { return time(distance, speed) - distance / speed; }
+  double loss(double distance, double speed) const {
+    return is_limited ? time(distance, speed) - distance / speed : 0.0;
+  }
 };
 
 /// The speed of one action, metres (or radians) per second. cruise >= start, end.

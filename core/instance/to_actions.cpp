@@ -69,7 +69,7 @@ class ActionList {
     double rotated = now_ + inertia.time(rotation, speed);
     if (std::abs(t_end - rotated) <= rounding) rotated = t_end;
     append(Action::Type::rotate, rotated, {pose_.position, theta}, {});
-    if (inertia.any()) actions_.back().profile = fastest_profile(rotation, speed, inertia);
+    if (inertia.is_limited) actions_.back().profile = fastest_profile(rotation, speed, inertia);
   }
   void append(Action::Type type, double t_end, const Pose& to, std::optional<std::size_t> goal) {
     actions_.push_back({type, now_, t_end, pose_, to, goal});

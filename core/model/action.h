@@ -26,4 +26,14 @@ struct Action {
   std::optional<SpeedProfile> profile = {};
 };
 
+/// What an action covers: metres of a translation, radians of a rotation.
+double amount_of(const Action& action);
+
+/// The share of an action, in [0, 1], that is covered at time `t`; 1 of one that takes no time.
+double share_at(const Action& action, double t);
+/// The inverse: the time at which a share in [0, 1] is covered.
+double time_at_share(const Action& action, double share);
+/// The speed at a time within an action, metres (or radians) per second, >= 0.
+double speed_at(const Action& action, double t);
+
 }  // namespace fleetplan::core

@@ -41,7 +41,7 @@ std::vector<Part> joined(const std::vector<Part>& parts, double length) {
 
 /// Returns the profiles of the parts of a move of this length; none without inertia.
 std::vector<SpeedProfile> profiles_of(const std::vector<Part>& parts, double length, const Inertia& inertia) {
-  if (!inertia.any()) return {};
+  if (!inertia.is_limited) return {};
   std::vector<LimitedPart> limited;
   limited.reserve(parts.size());
   double first = 0.0;

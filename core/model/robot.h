@@ -62,6 +62,11 @@ struct Robot {
 
   Inertia linear_inertia() const { return {1.0 / linear_acceleration, 1.0 / linear_deceleration}; }
   Inertia angular_inertia() const { return {1.0 / angular_acceleration, 1.0 / angular_acceleration}; }
+  /// That of translations, or of rotations; a wait has none.
+  Inertia inertia_of(Action::Type type) const {
+    if (type == Action::Type::wait) return {};
+    return type == Action::Type::rotate ? angular_inertia() : linear_inertia();
+  }
 
   std::size_t goal_count() const { return via.size() + (goal ? 1 : 0); }
   /// Whether it makes way for others once it has served its own goals, or if it has none.

@@ -35,7 +35,7 @@ class Search {
         motion_(space.vertices().motion()),
         limits_(limits),
         stop_(stop),
-        is_costly_(table.is_costly() || motion_.linear_inertia.any()),
+        is_costly_(table.is_costly() || motion_.linear_inertia.is_limited),
         state_(std::move(state)),
         goals_(space, limits.horizon, state_),
         successors_(table, space, goals_, state_, stop),

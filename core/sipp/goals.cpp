@@ -287,7 +287,7 @@ void Goals::append_move(Trajectory& trajectory, const Label& from, const Label& 
   const bool continues = from.by_translation && to.departure == from.arrival && from.reverse == to.reverse &&
                          angle_between(from.heading, to.heading) <= kSameHeading;
   const Segment way{state_.places[from.place].position, state_.places[to.place].position};
-  if (space_.vertices().limit_speeds() || space_.vertices().motion().linear_inertia.any()) {
+  if (space_.vertices().limit_speeds() || space_.vertices().motion().linear_inertia.is_limited) {
     append_pieces(trajectory, space_.vertices().pieces(way), to, continues);
   } else if (continues) {
     trajectory.moves.back().path.to = way.to;

@@ -200,7 +200,7 @@ bool Vertices::linked(const OwnVertex& own, int vertex) {
 std::vector<DriveZones::Piece> Vertices::pieces(const Segment& path) const {
   if (limit_speeds()) return zones_->pieces(path.from, path.to);
   DriveZones::Piece piece{path, motion_.linear_speed, 0.0, motion_.translation_time(path.length())};
-  if (motion_.linear_inertia.any()) {
+  if (motion_.linear_inertia.is_limited) {
     piece.profile = fastest_profile(path.length(), motion_.linear_speed, motion_.linear_inertia);
   }
   return {piece};

@@ -15,8 +15,8 @@ Successors::Successors(const ReservationTable& table, SearchSpace& space, const 
       vertices_(space.vertices()),
       zones_(space.vertices().limit_speeds() ? space.vertices().zones() : nullptr),
       changes_radius_(space.changes_radius()),
-      has_parts_(zones_ != nullptr || motion_.linear_inertia.any()),
-      may_continue_(motion_.wait_before_move > 0.0 && !motion_.linear_inertia.any()) {}
+      has_parts_(zones_ != nullptr || motion_.linear_inertia.is_limited),
+      may_continue_(motion_.wait_before_move > 0.0 && !motion_.linear_inertia.is_limited) {}
 
 PlaceId Successors::place_of(int vertex, int stage) {
   const int number = changes_radius_ ? goals_.stage(stage).first_vertex + vertex : vertex;

@@ -152,7 +152,7 @@ void Successors::visit_edges(LabelId from, Visit&& visit) {
     const PlaceId target = place_of(neighbour, stage);
     if (state_.places[target].never_safe()) return;
     // With inertia, a stop in a straight line costs time, on any lattice.
-    const bool has_shortcuts = view.any_angle() || motion_.linear_inertia.any();
+    const bool has_shortcuts = view.any_angle() || motion_.linear_inertia.is_limited;
     const bool with_shortcut = has_shortcuts && before >= 0 && neighbour != before;
     visit_edge(from, target, state_.places[target].first_interval, with_shortcut, visit);
   });

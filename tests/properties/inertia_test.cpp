@@ -129,8 +129,8 @@ void expect_profiles(const Problem& problem, const Plan& plan) {
   for (const RobotPlan& robot : plan.plans) {
     const Robot& driven = problem.robots()[robot.robot];
     for (const Action& action : robot.actions) {
-      const bool limited = action.type == Action::Type::translate ? driven.linear_inertia().any()
-                           : action.type == Action::Type::rotate  ? driven.angular_inertia().any()
+      const bool limited = action.type == Action::Type::translate ? driven.linear_inertia().is_limited
+                           : action.type == Action::Type::rotate  ? driven.angular_inertia().is_limited
                                                                   : false;
       EXPECT_EQ(action.profile.has_value(), limited);
     }

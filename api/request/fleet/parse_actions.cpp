@@ -34,12 +34,6 @@ bool is_possible(const core::SpeedProfile& profile) {
   return profile.cruise > 0.0 && profile.cruise >= std::max(profile.start, profile.end);
 }
 
-/// Returns what a profile has to cover: metres, or radians of a rotation.
-double amount_of(const core::Action& action) {
-  return action.type == core::Action::Type::rotate ? turn_between(action.from, action.to)
-                                                   : distance_between(action.from, action.to);
-}
-
 /// Returns how far a translation leads off the line of its heading, metres. A robot may drive backwards.
 double sideways(const core::Action& action) {
   const core::Position d = action.to.position - action.from.position;
@@ -56,6 +50,10 @@ std::string seconds(double t) { return number_text(t) + " s"; }
 
 }  // namespace
 
+void set_inertia(core::Action& action, const core::Robot& robot) {
+  if (action.profile) action.profile->inertia = robot.inertia_of(action.type);
+}
+
 double covered_by_profile(const core::Action& action) {
   const core::SpeedProfile& profile = *action.profile;
   const double cruises = action.t_end - action.t_start - profile.rise_time() - profile.fall_time();
@@ -67,7 +65,8 @@ bool profile_fits(const core::Action& action) {
   if (!is_possible(profile)) return false;
   const double duration = action.t_end - action.t_start;
   return duration >= profile.rise_time() + profile.fall_time() - kTolerance &&
-         std::abs(covered_by_profile(action) - amount_of(action)) <= kTolerance * (1.0 + profile.cruise);
+         std::abs(covered_by_profile(action) - core::amount_of(action)) <=
+             kTolerance * (1.0 + profile.cruise);
 }
 
 void leave_out_unfit_profiles(std::vector<core::Action>& actions) {
@@ -77,11 +76,10 @@ void leave_out_unfit_profiles(std::vector<core::Action>& actions) {
 }
 
 ActionChain::ActionChain(const ActionsOwner& owner)
-    : linear_speed_(owner.linear_speed),
+    : robot_(owner.robot),
+      linear_speed_(owner.linear_speed),
       angular_speed_(owner.angular_speed),
       may_reverse_(owner.may_reverse),
-      linear_inertia_(owner.linear_inertia),
-      angular_inertia_(owner.angular_inertia),
       measured_(owner.measured),
       pose_(owner.start) {}
 
@@ -95,11 +93,8 @@ core::Action ActionChain::append(core::Action action, const JsonReader& item) {
   if (item.fault_count() == before) {
     action = joined(action);
     check_speed(action, item);
-    if (action.profile) {
-      const bool turns = action.type == core::Action::Type::rotate;
-      action.profile->inertia = turns ? angular_inertia_ : linear_inertia_;
-      check_profile(action, item);
-    }
+    set_inertia(action, robot_);
+    if (action.profile) check_profile(action, item);
     check_has_profile(action, item);
     check_speeds_meet(action, item);
     if (action.reverse) check_reverse(action, item);
@@ -166,8 +161,7 @@ void ActionChain::check_type(const core::Action& action, const JsonReader& item)
 void ActionChain::check_speed(const core::Action& action, const JsonReader& item) const {
   const double duration = action.t_end - action.t_start;
   const bool translates = action.type == core::Action::Type::translate;
-  const double amount =
-      translates ? distance_between(action.from, action.to) : turn_between(action.from, action.to);
+  const double amount = core::amount_of(action);
   const auto& speed = translates ? linear_speed_ : angular_speed_;
   const char* const unit = translates ? "m" : "rad";
   const bool instant = translates && duration <= 0.0 && amount > 0.0;
@@ -208,7 +202,7 @@ void ActionChain::check_profile(const core::Action& action, const JsonReader& it
     });
     return;
   }
-  const double amount = amount_of(action);
+  const double amount = core::amount_of(action);
   const double duration = action.t_end - action.t_start;
   const double changes = profile.rise_time() + profile.fall_time();
   member.fault(fault::kProfile, [&] {
@@ -222,9 +216,8 @@ void ActionChain::check_profile(const core::Action& action, const JsonReader& it
 
 /// Only what is committed may be measured.
 void ActionChain::check_has_profile(const core::Action& action, const JsonReader& item) const {
-  if (action.profile || count_ < measured_ || action.type == core::Action::Type::wait) return;
-  const bool turns = action.type == core::Action::Type::rotate;
-  if (!(turns ? angular_inertia_ : linear_inertia_).any() || amount_of(action) <= kTolerance) return;
+  if (action.profile || count_ < measured_) return;
+  if (!robot_.inertia_of(action.type).is_limited || core::amount_of(action) <= kTolerance) return;
   item.fault(fault::kProfile, [&] {
     return name() +
            " has no profile, but the robot's acceleration is limited; give the action as it was planned.";

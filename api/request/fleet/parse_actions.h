@@ -19,6 +19,9 @@ namespace fleetplan::api {
 /// its speeds only, until the robot is known.
 core::Action parse_action(const JsonReader& item, const Range& times);
 
+/// Completes the profile of an action of this robot.
+void set_inertia(core::Action& action, const core::Robot& robot);
+
 /// Whether a profile leads over the length (or angle) of its action in its time; and the length that it
 /// covers.
 bool profile_fits(const core::Action& action);
@@ -32,12 +35,11 @@ core::Action to_map(const core::Action& world, const WorldFrame& frame);
 
 /// The robot that executes actions, as far as it is known; what could not be read is not compared.
 struct ActionsOwner {
+  const core::Robot& robot;             // its accelerations are known
   std::optional<core::Pose> start;      // in the map frame
   std::optional<double> linear_speed;   // metres per second
   std::optional<double> angular_speed;  // radians per second
   std::optional<bool> may_reverse = {};
-  core::Inertia linear_inertia = {};
-  core::Inertia angular_inertia = {};
   /// The first so many actions may be measured motion, which has no profiles.
   std::size_t measured = std::numeric_limits<std::size_t>::max();
 };
@@ -78,11 +80,10 @@ class ActionChain {
   core::Action joined(core::Action action) const;
   std::string name() const;
 
+  const core::Robot& robot_;
   std::optional<double> linear_speed_;
   std::optional<double> angular_speed_;
   std::optional<bool> may_reverse_;
-  core::Inertia linear_inertia_;
-  core::Inertia angular_inertia_;
   std::size_t measured_;
   std::optional<double> now_ = 0.0;  // seconds; none: unknown, as is the pose
   std::optional<core::Pose> pose_;

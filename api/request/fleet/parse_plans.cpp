@@ -62,15 +62,6 @@ core::RobotPlan parse_plan(const JsonReader& json, const WorldFrame& frame) {
   return plan;
 }
 
-/// Profiles have only speeds until the robot is known.
-void set_inertia(const core::Robot& robot, std::vector<core::Action>& actions) {
-  for (core::Action& action : actions) {
-    if (!action.profile) continue;
-    const bool turns = action.type == core::Action::Type::rotate;
-    action.profile->inertia = turns ? robot.angular_inertia() : robot.linear_inertia();
-  }
-}
-
 /// The robots by id, and which of them have a plan already.
 class Roster {
  public:
@@ -106,8 +97,7 @@ std::vector<core::RobotPlan> parse_plans(const JsonReader& member, const std::ve
     core::RobotPlan plan = parse_plan(json, frame);
     if (const auto owner = roster.assign(json.require("robot"))) {
       plan.robot = *owner;
-      const core::Robot& robot = robots[*owner].robot;
-      set_inertia(robot, plan.actions);
+      for (core::Action& action : plan.actions) set_inertia(action, robots[*owner].robot);
       plans.push_back(std::move(plan));
     }
   }

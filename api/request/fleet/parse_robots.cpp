@@ -238,12 +238,11 @@ class RobotReader {
     robot.goal_age = json.find("goal_age").number(kDuration).value_or(0.0);
     robot.weight = json.find("weight").number(kWeight).value_or(1.0);
     read.metadata = parse_metadata(json);
-    ActionsOwner owner{.start = std::nullopt,
+    ActionsOwner owner{.robot = robot,
+                       .start = std::nullopt,
                        .linear_speed = traits.linear_speed.value,
                        .angular_speed = traits.angular_speed.value,
-                       .may_reverse = robot.may_reverse,
-                       .linear_inertia = robot.linear_inertia(),
-                       .angular_inertia = robot.angular_inertia()};
+                       .may_reverse = robot.may_reverse};
     read.start = json.require("start", "; give {\"x\", \"y\"} and optionally \"theta\"");
     if (const auto start = parse_plain_pose(read.start, frame_)) {
       robot.start = {start->position, start->theta.value_or(0.0)};

@@ -1,9 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "api/advance/advance.h"
+#include "api/request/fleet/parse_actions.h"
 #include "core/geometry/angle.h"
 #include "tests/api/advance/driving_fleet.h"
 
@@ -101,6 +104,40 @@ TEST(Timeline, ActionsAreCutWhereTheyAreUnderWay) {
   ASSERT_EQ(in_a_move.size(), 1U);
   expect_pose(in_a_move[0].to, 2.0, 1.0, 0.0);
   EXPECT_TRUE(stopped_by(corner(), 0.0).empty());
+}
+
+/// Ahead at speed, then on through a slow part, from rest to rest.
+std::vector<Action> through_two_parts(const core::Inertia& inertia) {
+  std::vector<Action> parts{{Type::translate, 0.0, 0.0, at_x(1.0), at_x(5.0)},
+                            {Type::translate, 0.0, 0.0, at_x(5.0), at_x(6.0)}};
+  parts[0].profile = core::SpeedProfile{0.0, 2.0, 0.0, inertia};
+  parts[1].profile = core::SpeedProfile{0.0, 0.5, 0.0, inertia};
+  return driven_from(parts, 0.0, 0.0);
+}
+
+TEST(Timeline, ARobotThatNeedsTimeToStopBrakesAsLateAsItCan) {
+  for (const core::Inertia& inertia :
+       std::vector<core::Inertia>{{1.0, 0.5}, {0.3, 2.0}, {0.0, 1.0}, {1.0, 0.0}}) {
+    const std::vector<Action> chain = through_two_parts(inertia);
+    const double end = chain.back().t_end;
+    for (int k = 0; k <= 60; ++k) {
+      const double t = end * k / 60;
+      SCOPED_TRACE(testing::Message() << "stands at " << t << ", " << inertia.rise << ", " << inertia.fall);
+      const std::vector<Action> stopped = stopped_by(chain, t);
+      double farthest = 1.0;
+      for (int i = 0; i <= 500; ++i) {
+        const std::vector<Action> tried = braked(chain, end * i / 500);
+        if (!tried.empty() && tried.back().t_end <= t) {
+          farthest = std::max(farthest, tried.back().to.position.x());
+        }
+      }
+      EXPECT_GE(stopped.empty() ? 1.0 : stopped.back().to.position.x(), farthest - 1e-12);
+      if (stopped.empty()) continue;
+      EXPECT_LE(stopped.back().t_end, t + 1e-9);
+      EXPECT_EQ(stopped.back().profile->end, 0.0);
+      for (const Action& action : stopped) EXPECT_TRUE(profile_fits(action));
+    }
+  }
 }
 
 TEST(Timeline, ActionsThatOverlapInTimeFollowEachOther) {
