@@ -105,21 +105,6 @@ void join_actions(const JsonReader& member, const std::vector<core::Robot>& robo
   }
 }
 
-/// Robots are simulated at the mean speed of each action.
-void leave_out_profiles(SimulateRequest& request) {
-  bool has_profiles = false;
-  // Bounded: the actions that were read.
-  for (core::RobotPlan& plan : request.plans) {
-    for (core::Action& action : plan.actions) {
-      has_profiles = has_profiles || action.profile.has_value();
-      action.profile.reset();
-    }
-  }
-  if (!has_profiles) return;
-  request.warnings.emplace_back(
-      "Changes of speed are not simulated: each action takes its planned time, at its mean speed.");
-}
-
 void parse_policy(const JsonReader& root, SimulateRequest& request) {
   const JsonReader policy =
       root.require("policy", "; give \"open_loop\", \"absorb_waits\", \"dependencies\" or \"clock_stop\"");
@@ -220,7 +205,6 @@ Result<SimulateRequest, RequestError> parse_simulate_request(std::string_view bo
       mark_invalid_robots(root.find("unplanned"), request.robots);
     }
     if (root.fault_count() == 0) join_actions(list, request.robots, request.plans);
-    leave_out_profiles(request);
     add_commitments(request);
     parse_all_dependencies(root, request);
     return reading.met() ? std::nullopt : std::optional(std::move(request));

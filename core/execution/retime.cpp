@@ -8,6 +8,8 @@
 #include <tuple>
 #include <utility>
 
+#include "core/execution/drive.h"
+
 namespace fleetplan::core {
 
 namespace {
@@ -33,6 +35,7 @@ struct Traveller {
   std::vector<Mark> gates;            // ascending
   std::vector<Mark> awaited;          // ascending
   std::size_t next_gate = 0;
+  std::size_t next_closed = 0;  // for a drive: the first gate that is not known to be open
   std::size_t next_awaited = 0;
   double at = 0.0;
   double heading_for = 0.0;
@@ -41,9 +44,15 @@ struct Traveller {
   double held_until = 0.0;
   std::size_t because_of = kNobody;
   std::size_t waits_for = kNobody;
+  std::optional<Drive> drive = {};  // if the action under way has a profile
+  std::size_t arrivals = 0;         // the number of its present arrival; others are obsolete
 
   double end() const { return static_cast<double>(actions.size()); }
   const Action& action() const { return actions[static_cast<std::size_t>(at)]; }
+  /// The place of a progress in the drive.
+  double place(double progress) const {
+    return drive->place_of(static_cast<std::size_t>(progress), progress - std::floor(progress));
+  }
 };
 
 double whole(const ActionProgress& progress) {
@@ -80,16 +89,16 @@ class Forward {
     if (!begin(stop)) return std::nullopt;
     while (!arrivals_.empty()) {
       if (stop.met()) return std::nullopt;
-      const auto [t, robot] = arrivals_.top();
+      const auto [t, robot, number] = arrivals_.top();
       arrivals_.pop();
-      arrive(robot, t);
+      if (number == travellers_[robot].arrivals) arrive(robot, t);
     }
     for (std::size_t k = 0; k < travellers_.size(); ++k) finish(k);
     return std::move(retimed_);
   }
 
  private:
-  using Arrival = std::pair<double, std::size_t>;
+  using Arrival = std::tuple<double, std::size_t, std::size_t>;  // time, robot, its number
 
   void observe(const ObservedState& state) {
     Traveller& one = travellers_[state.robot];
@@ -108,6 +117,7 @@ class Forward {
       retimed_.push_back({first, std::vector<double>(one.actions.size() - first, rules_.now), rules_.now});
       // A gate that it has passed already does not call it back.
       while (one.next_gate < one.gates.size() && one.gates[one.next_gate].progress < one.at) ++one.next_gate;
+      one.next_closed = one.next_gate;
     }
     for (std::size_t k = 0; k < travellers_.size(); ++k) tell(k, rules_.now);
     for (std::size_t k = 0; k < travellers_.size(); ++k) go_on(k, rules_.now);
@@ -126,12 +136,65 @@ class Forward {
       waiting_[dependency] = robot;
       return;
     }
+    if (one.action().profile) head_on(robot, t);
     one.now = t;
     double next = static_cast<double>(static_cast<std::size_t>(one.at)) + 1.0;
     if (one.next_gate < one.gates.size()) next = std::min(next, one.gates[one.next_gate].progress);
     if (one.next_awaited < one.awaited.size()) next = std::min(next, one.awaited[one.next_awaited].progress);
     one.heading_for = next;
-    arrivals_.emplace(t_reached(robot, next), robot);
+    const double arrives = one.drive ? one.drive->time_at(one.place(next)) : t_reached(robot, next);
+    arrivals_.emplace(arrives, robot, ++one.arrivals);
+  }
+
+  /// Lets a robot drive on: begins the drive if it has not begun, and heads for the first gate that is
+  /// closed, or for the end.
+  void head_on(std::size_t robot, double t) {
+    Traveller& one = travellers_[robot];
+    if (!one.drive) begin_drive(one, t);
+    Drive& drive = *one.drive;
+    if (drive.stands() && t > drive.now()) drive.stand_until(t);
+    double stop = drive.length();
+    // Bounded: each gate of a robot once, and the first one that is closed whenever the robot goes on.
+    for (; one.next_closed < one.gates.size(); ++one.next_closed) {
+      const Mark& gate = one.gates[one.next_closed];
+      if (gate.progress >= static_cast<double>(drive.end())) break;
+      if (met_[gate.dependency]) continue;
+      waiting_[gate.dependency] = robot;
+      stop = one.place(gate.progress);
+      break;
+    }
+    if (stop != drive.heading_for()) drive.head_for(stop);
+  }
+
+  void begin_drive(Traveller& one, double t) const {
+    const auto index = static_cast<std::size_t>(one.at);
+    const Action& action = one.action();
+    const double fraction = one.at - std::floor(one.at);
+    double speed = 0.0;
+    // A robot that waited, or is held, goes on from rest.
+    if (t <= one.now && t >= one.held_until) {
+      const double planned = planned_time(one.actions, index, fraction) - action.t_start;
+      speed = fraction > 0.0 ? speed_after(*action.profile, action.t_end - action.t_start, planned)
+                             : action.profile->start;
+    }
+    one.drive.emplace(one.actions, index, std::vector{one.speed_factor}, std::max(t, one.held_until), speed,
+                      fraction);
+  }
+
+  /// A gate that a robot is heading for has opened.
+  void drive_past(std::size_t robot, std::size_t opener, double t) {
+    Traveller& one = travellers_[robot];
+    one.drive->drive_until(t);
+    const bool slowed_down = one.drive->slows_down();
+    go_on(robot, t);
+    if (slowed_down && !one.drive->slows_down()) blame(one, opener);
+  }
+
+  /// Notes that a robot has waited for another one.
+  void blame(Traveller& waiter, std::size_t robot) const {
+    const std::size_t because_of = travellers_[robot].because_of;
+    waiter.waits_for = robot;
+    waiter.because_of = because_of == kNobody ? robot : because_of;
   }
 
   /// Returns when a robot gets from where it is to a progress in the same action, seconds.
@@ -155,8 +218,10 @@ class Forward {
   void arrive(std::size_t robot, double t) {
     Traveller& one = travellers_[robot];
     const auto action = static_cast<std::size_t>(one.at);
+    if (one.drive) one.drive->drive_to(one.place(one.heading_for));
     one.at = one.heading_for;
     one.now = t;
+    if (one.drive && one.at >= static_cast<double>(one.drive->end())) one.drive.reset();
     if (one.at >= static_cast<double>(action) + 1.0) {
       RetimedRobot& retimed = retimed_[robot];
       retimed.ends[action - retimed.first] = t;
@@ -185,11 +250,13 @@ class Forward {
       met_[dependency] = true;
       const std::size_t other = waiting_[dependency];
       if (other == kNobody) continue;
+      waiting_[dependency] = kNobody;
       Traveller& waiter = travellers_[other];
-      if (t > waiter.now + kOnTime) {
-        waiter.waits_for = robot;
-        waiter.because_of = one.because_of == kNobody ? robot : one.because_of;
+      if (waiter.drive && !waiter.drive->stands()) {
+        drive_past(other, robot, t);
+        continue;
       }
+      if (t > waiter.now + kOnTime) blame(waiter, robot);
       go_on(other, t);
     }
   }

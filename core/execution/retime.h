@@ -40,10 +40,12 @@ struct RetimedRobot {
 };
 
 /// Returns by robot the new times of its actions, if every robot goes on: moves take their planned time
-/// divided by the speed factor, services last as long as planned and begin no earlier than they may, and
-/// other waits end when planned, or at once if that time has passed. Without delays these are the planned
-/// times. Robots without a state are as planned. `dependencies`: each `until` is planned before its `gate`.
-/// `actions`: contiguous in time, ascending. Returns none if the stop condition is met.
+/// divided by the speed factor, or with a profile its cruise speed is multiplied by it; services last as long
+/// as planned and begin no earlier than they may, and other waits end when planned, or at once if that time
+/// has passed. A robot with profiles brakes for a gate, and goes on from the speed that it has when the gate
+/// opens. Without delays these are the planned times, except where a gate opens so late that a robot has
+/// begun to brake. Robots without a state are as planned. `dependencies`: each `until` is planned before its
+/// `gate`. `actions`: contiguous in time, ascending. Returns none if the stop condition is met.
 std::optional<std::vector<RetimedRobot>> retime(const std::vector<Robot>& robots,
                                                 const std::vector<Actions>& actions,
                                                 const std::vector<Dependency>& dependencies,

@@ -37,7 +37,7 @@ std::vector<SpeedProfile> fastest_profiles(const std::vector<LimitedPart>& parts
   std::vector<double> speeds(count + 1, 0.0);
   speeds[0] = start_speed > 0.0 ? std::min(start_speed, parts.front().limit) : 0.0;
   for (std::size_t k = 1; k < count; ++k) {
-    const double limit = std::min(parts[k - 1].limit, parts[k].limit);
+    const double limit = std::min({parts[k - 1].limit, parts[k - 1].end_limit, parts[k].limit});
     speeds[k] = reached(speeds[k - 1], parts[k - 1].length, inertia.rise, limit);
   }
   for (std::size_t k = count; k-- > 0;) {

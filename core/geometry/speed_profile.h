@@ -50,8 +50,9 @@ struct SpeedProfile {
 
 /// A part of a straight way, with a greatest speed.
 struct LimitedPart {
-  double length = 0.0;  // metres, > 0
-  double limit = 0.0;   // metres per second
+  double length = 0.0;          // metres, > 0
+  double limit = 0.0;           // metres per second
+  double end_limit = kForever;  // metres per second, at its end
 };
 
 /// Returns by part the fastest profile of a translation through all of them, to rest. A start speed from

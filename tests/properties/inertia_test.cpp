@@ -10,6 +10,8 @@
 #include <cstdlib>
 #include <vector>
 
+#include "core/execution/make_dependencies.h"
+#include "core/execution/simulation/simulation.h"
 #include "core/planner.h"
 #include "tests/support/expect_bounds.h"
 #include "tests/support/expect_safe.h"
@@ -168,6 +170,68 @@ TEST_P(FleetWithInertia, GetsTheSamePlanTwice) {
   if (first.deterministic && second.deterministic) {
     EXPECT_EQ(support::exact_text(first), support::exact_text(second));
   }
+}
+
+/// Each robot makes between a third and all of its speed, stops now and then, and begins moves late.
+Disturbance late_robots() {
+  Disturbance disturbance;
+  disturbance.speed = {0.3, 1.0};
+  disturbance.turn = {0.5, 1.0};
+  disturbance.stops = {200.0, 2.0};
+  disturbance.start_delay = {0.0, 0.3};
+  return disturbance;
+}
+
+/// Robots that are late brake at gates, stand and start again: what they have done is a motion that the same
+/// integration executes, in which nobody is overlapped and everybody arrives.
+TEST_P(FleetWithInertia, IsExecutedByDependenciesWithinItsLimits) {
+  const int seed = GetParam();
+  SCOPED_TRACE(testing::Message() << "seed " << seed);
+  support::Dice dice(static_cast<std::uint64_t>(seed) + 5000);
+  const Problem problem = random_inertial_problem(dice, seed);
+  PlanOptions options;
+  options.interval_margin = 0.6;
+  const Plan plan = core::plan(problem, options, generous_budget());
+  const DependencyRules rules{std::vector<double>(problem.robots().size(), 0.0), 0.1, 1e-6};
+  const auto dependencies = make_dependencies(problem.robots(), plan.plans, rules, StopCondition::never());
+  PlannedExecution execution{plan.plans, {}};
+  execution.policy = ExecutionPolicy::dependencies;
+  std::vector<std::size_t> plan_of(problem.robots().size(), 0);
+  for (std::size_t k = 0; k < plan.plans.size(); ++k) {
+    plan_of[plan.plans[k].robot] = k;
+    execution.purposes.push_back(
+        wait_purposes(problem.robots()[plan.plans[k].robot], plan.plans[k].actions, 0.0));
+  }
+  for (Dependency dependency : dependencies->list) {
+    dependency.gate.robot = plan_of[dependency.gate.robot];
+    dependency.until.robot = plan_of[dependency.until.robot];
+    execution.dependencies.push_back(dependency);
+  }
+  std::vector<double> radii;
+  for (const Robot& robot : problem.robots()) radii.push_back(robot.radius);
+  const SimulatedFleet fleet{problem.map().grid(), problem.robots(), radii, execution};
+  const SimulationSettings settings{late_robots(), 1, static_cast<std::uint64_t>(seed)};
+
+  const auto trace = trace_run(fleet, settings, 0, 1'000'000, StopCondition::never());
+  const auto run = Simulator::make(fleet, settings, StopCondition::never())->run(0, StopCondition::never());
+
+  Plan executed = plan;
+  for (std::size_t k = 0; k < executed.plans.size(); ++k) executed.plans[k].actions = trace->actions[k];
+  for (const RobotPlan& robot : executed.plans) {
+    double speed = 0.0;
+    for (const Action& action : robot.actions) {
+      const double start = action.profile ? action.profile->start : 0.0;
+      if (action.type != Action::Type::translate || action.profile) {
+        EXPECT_NEAR(start, speed, 1e-5);
+      }
+      speed = action.profile ? action.profile->end : 0.0;
+    }
+    EXPECT_NEAR(speed, 0.0, 1e-5);
+  }
+  if (!dependencies->tight.empty()) return;  // there the clock has to be kept
+  EXPECT_TRUE(run->stuck.empty());
+  EXPECT_FALSE(run->collisions.first.has_value());
+  expect_execution_without_overlap(problem, executed);
 }
 
 int first_seed() {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/execution/drive.h"
 #include "core/runtime/random.h"
 
 namespace fleetplan::core {
@@ -34,7 +35,8 @@ class Draw {
       of.offsets.begin = drawn.all_offsets.size();
       if (action.type != Action::Type::wait) {
         const bool turns = action.type == Action::Type::rotate;
-        of.moving = (action.t_end - action.t_start) / uniform(turns ? disturbance_.turn : disturbance_.speed);
+        of.factor = uniform(turns ? disturbance_.turn : disturbance_.speed);
+        of.moving = (action.t_end - action.t_start) / of.factor;
         add_halts(of.moving, drawn.all_halts);
         if (!turns) add_offsets((action.to.position - action.from.position).norm(), drawn.all_offsets);
       }
@@ -104,6 +106,17 @@ std::optional<std::vector<DisturbedActions>> draw_disturbances(const std::vector
     if (draw.stopped()) return std::nullopt;
   }
   return drawn;
+}
+
+std::vector<HaltPlace> halt_places(const Action& action, const DisturbedActions& disturbed,
+                                   std::size_t index) {
+  const double moving = disturbed.actions[index].moving;
+  std::vector<HaltPlace> places;
+  // Bounded: the halts that were drawn.
+  for (const DisturbedActions::Halt& halt : disturbed.halts(index)) {
+    places.push_back({share_covered(action, halt.after / moving), halt.seconds});
+  }
+  return places;
 }
 
 std::optional<std::vector<Phase>> moving_phases(const DisturbedActions& disturbed, std::size_t action,

@@ -58,6 +58,7 @@ struct DisturbedActions {
   struct Of {
     double start_delay = 0.0;  // seconds
     double moving = 0.0;       // seconds that a rotation or translation takes without halts
+    double factor = 1.0;       // on the planned speed
     Range halts = {};
     Range offsets = {};
   };
@@ -84,6 +85,17 @@ std::optional<std::vector<DisturbedActions>> draw_disturbances(const std::vector
                                                                std::uint64_t seed, std::uint64_t run,
                                                                const StopCondition& stop);
 
+/// A robot with a profile brakes so that it stands for a while where it has covered this share of the action.
+struct HaltPlace {
+  double fraction = 0.0;
+  double seconds = 0.0;
+};
+
+/// The halts of an action with a profile: each is where the undisturbed robot is after the same share of its
+/// time.
+std::vector<HaltPlace> halt_places(const Action& action, const DisturbedActions& disturbed,
+                                   std::size_t index);
+
 /// A part of an action that takes a fixed time. During it the robot moves at constant speed from the end of
 /// the part before to this fraction of the action; it stands if the fraction is the same.
 struct Phase {
@@ -91,8 +103,8 @@ struct Phase {
   double to_fraction = 0.0;
 };
 
-/// The phases of a rotation or translation, after its start delay: it moves and halts in turn. Returns none
-/// if `stop` is met first.
+/// The phases of a rotation or translation, after its start delay: it moves and halts in turn, as if at its
+/// mean speed. Returns none if `stop` is met first.
 std::optional<std::vector<Phase>> moving_phases(const DisturbedActions& disturbed, std::size_t action,
                                                 const StopCondition& stop);
 

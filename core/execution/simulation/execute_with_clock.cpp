@@ -93,7 +93,10 @@ class ClockedExecution {
     }
     std::vector<ExecutedProgress> executed;
     executed.reserve(robots_.size());
-    for (Robot& robot : robots_) executed.push_back(std::move(robot.progress));
+    for (std::size_t k = 0; k < robots_.size(); ++k) {
+      if (stop_.met()) return std::nullopt;
+      executed.push_back(by_profiles(planned_.plans[k].actions, std::move(robots_[k].progress)));
+    }
     return executed;
   }
 

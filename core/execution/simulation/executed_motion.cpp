@@ -1,5 +1,6 @@
 #include "core/execution/simulation/executed_motion.h"
 
+#include <cmath>
 #include <limits>
 #include <span>
 
@@ -32,6 +33,8 @@ class DisturbedPath {
     const double turn = rotation_between(action_.from.theta, action_.to.theta);
     return {position(fraction), normalize_angle(action_.from.theta + fraction * turn)};
   }
+
+  bool bends() const { return !offsets_.empty(); }
 
   /// The fraction of the first bend of the path strictly between two fractions, if there is one.
   std::optional<double> next_bend(double from, double to) const {
@@ -66,6 +69,14 @@ class DisturbedPath {
   std::span<const double> offsets_;
 };
 
+/// Returns the ramp of a part of the motion between two knots.
+double ramp_between(const ExecutionKnot& from, const ExecutionKnot& to, double begin, double end) {
+  if (to.ramp == 0.0 || (begin == from.t && end == to.t)) return to.ramp;
+  const double share = (end - begin) / (to.t - from.t);
+  const double middle = (0.5 * (begin + end) - from.t) / (to.t - from.t);
+  return to.ramp * share / (1.0 - to.ramp * (1.0 - 2.0 * middle));
+}
+
 /// Calls `visit(planned action, path, from, to)` for each piece of time, in order, in which a robot moves
 /// straight or stands; from and to are knots of the same action. Returns false if `stop` is met first, or if
 /// `visit` returns false.
@@ -85,11 +96,15 @@ bool visit_pieces(const std::vector<Action>& planned, const DisturbedActions& di
     while (const auto bend = path.next_bend(last.fraction, to.fraction)) {
       if (!goes_on()) return false;
       const double part = (*bend - from.fraction) / (to.fraction - from.fraction);
-      const ExecutionKnot at{from.t + part * (to.t - from.t), from.action, *bend};
+      const double elapsed = elapsed_share(part, to.ramp);
+      ExecutionKnot at{from.t + elapsed * (to.t - from.t), from.action, *bend};
+      at.ramp = ramp_between(from, to, last.t, at.t);
       if (!visit(action, path, last, at)) return false;
       last = at;
     }
-    if (!visit(action, path, last, to)) return false;
+    ExecutionKnot end = to;
+    end.ramp = ramp_between(from, to, last.t, to.t);
+    if (!visit(action, path, last, end)) return false;
   }
   return true;
 }
@@ -113,7 +128,8 @@ std::optional<std::vector<Leg>> executed_legs(const Robot& robot, const std::vec
                      if (action.type != Action::Type::translate || from.fraction == to.fraction) return true;
                      stand(from.t);
                      const Position there = path.position(to.fraction);
-                     legs.push_back({from.t, to.t, path.position(from.fraction), there});
+                     const Position start = path.position(from.fraction);
+                     legs.push_back({from.t, to.t, start, there, to.ramp * (there - start)});
                      now = to.t;
                      here = there;
                      return true;
@@ -123,34 +139,144 @@ std::optional<std::vector<Leg>> executed_legs(const Robot& robot, const std::vec
   return legs;
 }
 
-std::optional<std::vector<Action>> disturbed_actions(const std::vector<Action>& planned,
-                                                     const DisturbedActions& disturbed,
-                                                     const ExecutedProgress& progress, std::size_t most,
-                                                     const StopCondition& stop) {
-  std::vector<Action> executed;
-  const auto add = [&](const Action& action, const DisturbedPath& path, const ExecutionKnot& from,
-                       const ExecutionKnot& to) {
-    const bool moves = action.type != Action::Type::wait && from.fraction != to.fraction;
-    if (!moves && from.t == to.t) return true;
-    const bool goes_on = !moves && !executed.empty() && executed.back().type == Action::Type::wait &&
-                         executed.back().goal == action.goal;
-    if (goes_on) {
-      executed.back().t_end = to.t;
-      return true;
+ExecutedProgress by_profiles(const std::vector<Action>& planned, ExecutedProgress by_time) {
+  ExecutedProgress progress;
+  progress.arrived = by_time.arrived;
+  // Bounded: the knots that there are, and at most two more of each pair.
+  for (const ExecutionKnot& to : by_time.knots) {
+    const Action& action = planned[to.action];
+    if (!action.profile || to.fraction <= 0.0) {
+      progress.knots.push_back(to);
+      continue;
+    }
+    const ExecutionKnot& from = by_time.knots[static_cast<std::size_t>(&to - by_time.knots.data()) - 1];
+    const SpeedProfile& profile = *action.profile;
+    const double duration = action.t_end - action.t_start;
+    double begin = from.fraction;
+    for (const double bend :
+         {profile.rise_time() / duration, 1.0 - profile.fall_time() / duration, to.fraction}) {
+      const double end = std::min(bend, to.fraction);
+      if (end <= begin && end < to.fraction) continue;
+      const double start_speed = speed_after(profile, duration, begin * duration);
+      const double end_speed = speed_after(profile, duration, end * duration);
+      ExecutionKnot knot = to;
+      if (end < to.fraction) {
+        const double share = (end - from.fraction) / (to.fraction - from.fraction);
+        knot.t = from.t + share * (to.t - from.t);
+      }
+      knot.fraction = end < 1.0 ? share_covered(action, end) : 1.0;
+      knot.ramp = start_speed == end_speed ? 0.0 : (end_speed - start_speed) / (end_speed + start_speed);
+      progress.knots.push_back(knot);
+      begin = end;
+      if (end >= to.fraction) break;
+    }
+  }
+  return progress;
+}
+
+namespace {
+
+/// Speeds that differ by less are the same (metres or radians per second).
+constexpr double kSameSpeed = 1e-6;
+
+/// How the speed changes in an action, in the order of a profile.
+enum class Change { rises, stays, falls };
+
+Change change_of(double ramp) {
+  if (ramp == 0.0) return Change::stays;
+  return ramp > 0.0 ? Change::rises : Change::falls;
+}
+
+/// Returns the profile of a motion at constant acceleration. If that is not the robot's, because of offsets
+/// from the path or because of a clock, it is the one of the robot's acceleration with the same mean speed;
+/// none if there is none.
+std::optional<SpeedProfile> profile_of(const Action& motion, double ramp, const Inertia& inertia) {
+  const double duration = motion.t_end - motion.t_start;
+  const double amount = motion.type == Action::Type::rotate
+                            ? angle_between(motion.from.theta, motion.to.theta)
+                            : (motion.to.position - motion.from.position).norm();
+  const double mean = amount / duration;
+  const Change change = change_of(ramp);
+  double half = ramp * mean;  // of the difference of speeds
+  if (change != Change::stays) {
+    const double inverse = change == Change::rises ? inertia.rise : inertia.fall;
+    if (inverse <= 0.0) return std::nullopt;
+    const double limited = 0.5 * duration / inverse;
+    if (std::abs(std::abs(half) - limited) > kSameSpeed) half = std::copysign(limited, ramp);
+  }
+  if (!(duration > 0.0) || std::abs(half) > mean * (1.0 + kSameSpeed)) return std::nullopt;
+  const double start = std::max(0.0, mean - half);
+  const double end = std::max(0.0, mean + half);
+  return SpeedProfile{start, std::max(start, end), end, inertia};
+}
+
+/// Adds executed actions one after the other.
+class ActionJoiner {
+ public:
+  /// Adds what was done of a planned action between two knots.
+  void add(const Action& planned, const DisturbedPath& path, const ExecutionKnot& from,
+           const ExecutionKnot& to) {
+    const bool moves = planned.type != Action::Type::wait && from.fraction != to.fraction;
+    if (!moves && from.t == to.t) return;
+    const bool waits_on = !moves && !executed_.empty() && executed_.back().type == Action::Type::wait &&
+                          executed_.back().goal == planned.goal;
+    if (waits_on) {
+      executed_.back().t_end = to.t;
+      return;
     }
     Action piece;
-    piece.type = moves ? action.type : Action::Type::wait;
+    piece.type = moves ? planned.type : Action::Type::wait;
     piece.t_start = from.t;
     piece.t_end = to.t;
     piece.from = path.pose(from.fraction);
     piece.to = path.pose(to.fraction);
-    piece.goal = action.goal;
-    piece.reverse = moves && action.reverse;
-    executed.push_back(piece);
-    return executed.size() <= most;
+    piece.goal = planned.goal;
+    piece.reverse = moves && planned.reverse;
+    if (moves && planned.profile) piece.profile = profile_of(piece, to.ramp, planned.profile->inertia);
+    const Change change = change_of(to.ramp);
+    if (moves && &planned == latest_ && goes_on(piece, change, path)) {
+      Action& last = executed_.back();
+      last.t_end = to.t;
+      last.to = piece.to;
+      last.profile->cruise = std::max(last.profile->cruise, piece.profile->cruise);
+      last.profile->end = piece.profile->end;
+    } else {
+      executed_.push_back(piece);
+    }
+    latest_ = moves ? &planned : nullptr;
+    change_ = change;
+  }
+
+  std::size_t count() const { return executed_.size(); }
+  std::vector<Action> take() { return std::move(executed_); }
+
+ private:
+  /// Whether a piece of the same planned action goes on with the profile of the one before.
+  bool goes_on(const Action& piece, Change change, const DisturbedPath& path) const {
+    const std::optional<SpeedProfile>& before = executed_.back().profile;
+    if (!piece.profile || !before || path.bends() || change < change_) return false;
+    return std::abs(before->end - piece.profile->start) <= kSameSpeed;
+  }
+
+  std::vector<Action> executed_;
+  const Action* latest_ = nullptr;  // that the last piece belongs to, if it moves
+  Change change_ = Change::rises;   // in the last piece
+};
+
+}  // namespace
+
+std::optional<std::vector<Action>> disturbed_actions(const std::vector<Action>& planned,
+                                                     const DisturbedActions& disturbed,
+                                                     const ExecutedProgress& progress, std::size_t most,
+                                                     const StopCondition& stop) {
+  ActionJoiner joiner;
+  const auto add = [&](const Action& action, const DisturbedPath& path, const ExecutionKnot& from,
+                       const ExecutionKnot& to) {
+    joiner.add(action, path, from, to);
+    return joiner.count() <= most;
   };
   if (!visit_pieces(planned, disturbed, progress, stop, add)) return std::nullopt;
-  return executed;
+  return joiner.take();
 }
 
 }  // namespace fleetplan::core

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/execution/drive.h"
 #include "core/execution/simulation/disturbance.h"
 #include "core/model/action.h"
 #include "core/model/robot.h"
@@ -20,10 +21,11 @@ struct ExecutionKnot {
   double t = 0.0;  // seconds
   std::size_t action = 0;
   double fraction = 0.0;
+  double ramp = 0.0;  // how the speed changes from the knot before, see TimedSegment
 };
 
-/// The progress of a robot: linear in time from knot to knot within an action. Every action that has begun
-/// has a knot with fraction 0.
+/// The progress of a robot: at constant acceleration, mostly 0, from knot to knot within an action. Every
+/// action that has begun has a knot with fraction 0.
 struct ExecutedProgress {
   std::vector<ExecutionKnot> knots;
   bool arrived = true;  // false: it stands at the last knot for ever
@@ -38,12 +40,17 @@ std::optional<std::vector<Leg>> executed_legs(const Robot& robot, const std::vec
                                               const ExecutedProgress& progress, const StopCondition& stop);
 
 /// The executed motion as actions, contiguous in time and space: planned actions at their executed times, cut
-/// where the robot halts, or where the offset from its path changes. Headings are those of the plan. Returns
-/// none if there are more than `most`, or if `stop` is met first.
+/// where the robot halts, or where the offset from its path changes. Headings are those of the plan. Of an
+/// action with a profile, the parts have one, too, unless a clock changed their acceleration. Returns none if
+/// there are more than `most`, or if `stop` is met first.
 std::optional<std::vector<Action>> disturbed_actions(const std::vector<Action>& planned,
                                                      const DisturbedActions& disturbed,
                                                      const ExecutedProgress& progress, std::size_t most,
                                                      const StopCondition& stop);
+
+/// Returns the progress of robots that follow their profiles as time goes by: `by_time` has fractions of the
+/// planned duration of actions, and constant speeds.
+ExecutedProgress by_profiles(const std::vector<Action>& planned, ExecutedProgress by_time);
 
 /// Builds the progress of one robot, from t = 0 on.
 class ProgressBuilder {
@@ -65,12 +72,32 @@ class ProgressBuilder {
     fraction_ = to_fraction;
     add_knot();
   }
+  /// Moves as a drive does, which may lead through several actions.
+  void drive(const std::vector<DrivenPiece>& pieces) {
+    for (const DrivenPiece& piece : pieces) {
+      while (action_ < piece.action) {
+        go_on(0.0, 1.0);
+        begin_action(action_ + 1);
+      }
+      now_ = std::max(now_, piece.t_end);
+      fraction_ = piece.to;
+      add_knot(piece.ramp);
+    }
+  }
+  /// Completes the actions before `end`, as far as they are within rounding.
+  void complete(std::size_t end) {
+    while (action_ + 1 < end) {
+      go_on(0.0, 1.0);
+      begin_action(action_ + 1);
+    }
+    go_on(0.0, 1.0);
+  }
 
   const ExecutedProgress& progress() const { return progress_; }
   ExecutedProgress& progress() { return progress_; }
 
  private:
-  void add_knot() { progress_.knots.push_back({now_, action_, fraction_}); }
+  void add_knot(double ramp = 0.0) { progress_.knots.push_back({now_, action_, fraction_, ramp}); }
 
   double now_ = 0.0;
   std::size_t action_ = 0;

@@ -36,8 +36,9 @@ struct PlannedExecution {
   double max_delay = 0.0;  // for the policy `clock_stop`: seconds, >= 0
 };
 
-/// Executes one plan under a policy in which robots do not communicate: `open_loop` or `absorb_waits`.
-/// Returns none if `stop` is met first.
+/// Executes one plan under a policy in which robots do not communicate: `open_loop` or `absorb_waits`. A
+/// robot with profiles has the factors of the disturbance on its cruise speeds, and brakes for halts. Returns
+/// none if `stop` is met first.
 std::optional<ExecutedProgress> execute_alone(const PlannedExecution& planned, std::size_t plan,
                                               const DisturbedActions& disturbed, const StopCondition& stop);
 
@@ -51,6 +52,7 @@ std::optional<std::vector<ExecutedProgress>> execute_dependencies(
 /// before its planned time, and no robot moves faster than planned. While a robot is as late as is allowed
 /// and slower than planned, the clock and all other robots go as slowly as that robot; they stand while it
 /// stands. This is the limit of robots that stop whenever one of them is later, if that is noticed at once.
+/// With a profile, a robot is where the profile is at its own time, and changes its pace at once, too.
 /// Returns none if `stop` is met first.
 std::optional<std::vector<ExecutedProgress>> execute_with_clock(
     const PlannedExecution& planned, const std::vector<DisturbedActions>& disturbed,

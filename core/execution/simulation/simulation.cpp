@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/geometry/segment.h"
 #include "core/runtime/memory_account.h"
 #include "core/verify/check_rules.h"
 #include "core/verify/geometry/relative_motion.h"
@@ -20,6 +21,13 @@ constexpr std::size_t kLegsBetweenPolls = 8;
 
 bool is_earlier(const ExecutedCollision& a, const ExecutedCollision& b) {
   return a.t != b.t ? a.t < b.t : a.first < b.first;
+}
+
+/// Returns the share of its time after which a leg has covered a share of its length.
+double elapsed_at(const Leg& leg, double covered) {
+  if (leg.bend == Position(0.0, 0.0)) return covered;
+  const Position way = leg.to - leg.from;
+  return elapsed_share(covered, leg.bend.dot(way) / way.squaredNorm());
 }
 
 Position position_of(const std::vector<Leg>& legs, double t) {
@@ -39,7 +47,8 @@ std::optional<ExecutedCollision> find_wall(const ObstacleField& field, std::size
     const auto nearest = field.nearest(leg.from, leg.to, reach);
     if (!nearest) continue;
     const double fraction = nearest->point.fraction;
-    const double t = fraction > 0.0 ? leg.t_begin + fraction * (leg.t_end - leg.t_begin) : leg.t_begin;
+    const double t =
+        fraction > 0.0 ? leg.t_begin + elapsed_at(leg, fraction) * (leg.t_end - leg.t_begin) : leg.t_begin;
     const Position where = leg.from + fraction * (leg.to - leg.from);
     return ExecutedCollision{robot, std::nullopt, t, where, radius - nearest->point.distance};
   }

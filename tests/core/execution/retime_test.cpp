@@ -110,5 +110,63 @@ TEST_F(Retime, ARobotThatHasPassedItsGateGoesOn) {
   EXPECT_NEAR(found[0].delay, 8.0, 1e-9);
 }
 
+/// `a` and `b` drive 18 m each at 2 m/s, in 12 s: 2 s and 2 m to start, 4 s and 4 m to stop. `b` may not pass
+/// 9 m until `a` is at 9 m.
+class RetimeHeavy : public testing::Test {
+ protected:
+  RetimeHeavy() {
+    for (const double y : {0.0, 5.0}) {
+      Robot robot{y > 0.0 ? "b" : "a", 0.5, 2.0, 2.0, {{0, y}, 0.0}, Goal{}};
+      robot.linear_acceleration = 1.0;
+      robot.linear_deceleration = 0.5;
+      Action action{Action::Type::translate, 0.0, 12.0, robot.start, {{18, y}, 0.0}};
+      action.profile = fastest_profile(18.0, 2.0, robot.linear_inertia());
+      plans_.push_back({robots_.size(), 12.0, {action}});
+      robots_.push_back(robot);
+    }
+  }
+
+  std::vector<RetimedRobot> times(const std::vector<ObservedState>& states, double until, double now = 0.0) {
+    return *retime(robots_, executed_actions(robots_, plans_), {{{1, 0, 0.5}, {0, 0, until}, 0.0}}, states,
+                   {now, 0.0}, StopCondition::never());
+  }
+
+  std::vector<Robot> robots_;
+  std::vector<RobotPlan> plans_;
+};
+
+TEST_F(RetimeHeavy, WithoutDelaysAndWithOpenGatesGivesThePlannedTimes) {
+  for (const double now : {0.0, 1.0, 5.0, 10.0, 12.0, 15.0}) {
+    const auto found = times({}, 0.2, now);
+    EXPECT_NEAR(found[0].delay, 0.0, 1e-9) << now;
+    EXPECT_NEAR(found[1].delay, 0.0, 1e-9) << now;
+  }
+}
+
+TEST_F(RetimeHeavy, AFactorIsOnTheCruiseSpeed) {
+  EXPECT_NEAR(times({{0, 0, 0.0, 0.5, 0.0}}, 0.2)[0].ends.back(), 18.0 + 0.5 + 1.0, 1e-9);
+}
+
+TEST_F(RetimeHeavy, AHeldRobotGoesOnFromRest) {
+  // At 5 s it is at 8 m, and stands there until 7 s.
+  EXPECT_NEAR(times({{0, 0, 8.0 / 18, 1.0, 2.0}}, 0.2, 5.0)[0].ends.back(), 7.0 + 5.0 + 1.0 + 2.0, 1e-9);
+  EXPECT_NEAR(times({{0, 0, 8.0 / 18, 1.0, 0.0}}, 0.2, 5.0)[0].ends.back(), 12.0, 1e-9);
+}
+
+TEST_F(RetimeHeavy, AStopAtAGateCostsBrakingAndStarting) {
+  // a is held for 10 s, and at 9 m at 15.5 s.
+  const auto found = times({{0, 0, 0.0, 1.0, 10.0}}, 0.5);
+  EXPECT_NEAR(found[1].ends.back(), 15.5 + 7.5, 1e-9);
+  EXPECT_EQ(found[1].waits_for, 0U);
+  EXPECT_EQ(found[1].because_of, 0U);
+}
+
+TEST_F(RetimeHeavy, AGateThatOpensWhileTheRobotBrakesCostsLess) {
+  const auto found = times({}, 0.5);  // a is at 9 m at 5.5 s; b has braked to 1 m/s, at 8 m
+  EXPECT_NEAR(found[0].delay, 0.0, 1e-9);
+  EXPECT_NEAR(found[1].ends.back(), 5.5 + 1.0 + 2.25 + 4.0, 1e-9);
+  EXPECT_EQ(found[1].waits_for, 0U);
+}
+
 }  // namespace TEST_FILE
 }  // namespace fleetplan::core
