@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/execution/drive.h"
 #include "core/geometry/tolerance.h"
 
 namespace fleetplan::api {
@@ -37,7 +38,13 @@ core::ActionPlace moved(const core::ActionProgress& progress, core::Actions acti
   const double length = (action.to.position - action.from.position).norm();
   if (duration <= 0.0 || length <= 0.0) return place;
   const double most = kClearance / length;
-  const double change = std::clamp(seconds / duration, -most, most);
+  double change = seconds / duration;
+  if (action.profile) {
+    const double planned = core::planned_time(actions, place.action, place.fraction) - action.t_start;
+    const double elapsed = std::clamp((planned + seconds) / duration, 0.0, 1.0);
+    change = core::share_covered(action, elapsed) - place.fraction;
+  }
+  change = std::clamp(change, -most, most);
   return place_in({progress.robot, progress.action, progress.fraction + change}, length);
 }
 

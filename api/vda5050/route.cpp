@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/execution/drive.h"
 #include "core/execution/executed_actions.h"
 #include "core/geometry/angle.h"
 
@@ -60,7 +61,11 @@ class RouteMaker {
     if (action.type == Action::Type::rotate) {
       const double angle = std::abs(core::normalize_angle(action.to.theta - heading_));
       const double duration = action.t_end - action.t_start;
-      if (duration > 0.0) rotation_speed_ = std::min(robot_.angular_speed, angle / duration);
+      if (action.profile) {
+        rotation_speed_ = action.profile->cruise;
+      } else if (duration > 0.0) {
+        rotation_speed_ = std::min(robot_.angular_speed, angle / duration);
+      }
       heading_ = action.to.theta;
       turned_ = true;
       turned_until_ = {k + 1, 0.0};
@@ -118,7 +123,8 @@ class RouteMaker {
   void add_leg(const Action& action, double from, double to, const core::ActionPlace& end) {
     const core::Position way = action.to.position - action.from.position;
     const double duration = action.t_end - action.t_start;
-    const double speed = duration > 0.0 ? way.norm() / duration : robot_.linear_speed;
+    const double constant = duration > 0.0 ? way.norm() / duration : robot_.linear_speed;
+    const double speed = action.profile ? action.profile->cruise : constant;
     route_.edges.push_back({(to - from) * way.norm(), speed, rotation_speed_, action.reverse});
     const core::Position position =
         to == 1.0 ? action.to.position : core::Position(action.from.position + to * way);
@@ -159,7 +165,7 @@ std::vector<core::ActionPlace> with_points_within(double seconds, std::vector<co
     const double pieces = std::ceil((actions[k].t_end - actions[k].t_start) / seconds);
     for (double piece = 1.0; piece < pieces; piece += 1.0) {
       if (stop.met_after(kWorkOfAPoint)) return points;
-      points.push_back({k, piece / pieces});
+      points.push_back({k, core::share_covered(actions[k], piece / pieces)});
     }
   }
   std::sort(points.begin(), points.end());

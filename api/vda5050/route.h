@@ -32,7 +32,7 @@ struct RouteNode {
 /// An edge from one node to the next: straight ahead (or back), or, with no length, a rotation in place.
 struct RouteEdge {
   double length = 0.0;          // metres
-  double speed = 0.0;           // metres per second, of the plan; 0 if there is no length
+  double speed = 0.0;           // metres per second, the greatest of the plan; 0 if there is no length
   double rotation_speed = 0.0;  // radians per second, for the rotation before it
   bool reverse = false;
 };

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -48,6 +49,47 @@ TEST(Route, HasANodeWhereverTheRobotStops) {
   ASSERT_EQ(way.edges.size(), 2U);
   EXPECT_EQ(way.edges[0].length, 4.0);
   EXPECT_EQ(way.edges[0].speed, 1.0);
+}
+
+TEST(Route, HasTheGreatestSpeedsOfProfiles) {
+  core::Robot robot = make_robot();
+  robot.linear_acceleration = 0.5;
+  robot.angular_acceleration = 1.0;
+  auto corner = plan(robot).translate_to(4.5, 0.5).rotate_to(kRight).translate_to(4.5, 2.5).build();
+  double t = 0.0;
+  for (core::Action& action : corner.actions) {
+    const bool turns = action.type == core::Action::Type::rotate;
+    const core::Inertia inertia = turns ? robot.angular_inertia() : robot.linear_inertia();
+    const double amount = turns ? kRight : (action.to.position - action.from.position).norm();
+    action.profile = core::fastest_profile(amount, turns ? 2.0 : 1.0, inertia);
+    action.t_start = t;
+    action.t_end = t += core::duration(*action.profile, amount);
+  }
+  const Route way = route(robot, corner, {{0, 0.25}});
+  ASSERT_EQ(way.edges.size(), 3U);
+  EXPECT_EQ(way.edges[0].speed, 1.0);
+  EXPECT_EQ(way.edges[1].speed, 1.0);
+  EXPECT_DOUBLE_EQ(way.edges[2].speed, 1.0) << "a metre to start, and one to stop";
+  EXPECT_DOUBLE_EQ(way.edges[2].rotation_speed, std::sqrt(kRight));
+  // It starts and stops in 2 s and 1 m each: after 2 s of the 6 s it is at 1 m, and after 4 s at 3 m.
+  const std::vector<core::Action> first(corner.actions.begin(), corner.actions.begin() + 1);
+  const auto points = with_points_within(2.0, {}, first, core::unbounded_work());
+  ASSERT_EQ(points.size(), 2U);
+  EXPECT_DOUBLE_EQ(points[0].fraction, 0.25);
+  EXPECT_DOUBLE_EQ(points[1].fraction, 0.75);
+}
+
+TEST(Gates, OfProfilesAreMovedByTime) {
+  core::Robot robot = make_robot();
+  robot.linear_acceleration = 0.5;
+  auto way = plan(robot).translate_to(4.5, 0.5).build();
+  way.actions[0].profile = core::fastest_profile(4.0, 1.0, robot.linear_inertia());
+  way.actions[0].t_end = 6.0;
+  // 0.1 m behind its start it has 0.32 m/s; a centimetre takes it 30 ms there, not 15.
+  const std::vector<core::Actions> actions{way.actions};
+  const auto gates = gates_of({{{0, 0, 0.025}, {0, 0, 0.5}, 0.06}}, actions);
+  EXPECT_NEAR(gates[0].place.fraction * 4.0, 0.1 - 0.015 * std::sqrt(0.1), 1e-4);
+  EXPECT_NEAR(gates[0].until.fraction * 4.0, 2.0 + 0.01, 1e-12);
 }
 
 TEST(Route, TellsTheHeadingWhereTheRobotTurns) {
