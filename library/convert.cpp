@@ -40,7 +40,8 @@ core::Action Frame::to_core(const Action& action) const {
           to_core(action.from),
           to_core(action.to),
           action.goal,
-          action.reverse};
+          action.reverse,
+          action.profile ? std::optional(profile_of(*action.profile)) : std::nullopt};
 }
 
 Pose Frame::from_core(const core::Pose& pose) const {
@@ -49,13 +50,23 @@ Pose Frame::from_core(const core::Pose& pose) const {
 }
 
 Action Frame::from_core(const core::Action& action) const {
-  return {static_cast<Action::Type>(action.type),
-          action.t_start,
-          action.t_end,
-          from_core(action.from),
-          from_core(action.to),
-          action.goal,
-          action.reverse};
+  Action made{static_cast<Action::Type>(action.type),
+              action.t_start,
+              action.t_end,
+              from_core(action.from),
+              from_core(action.to),
+              action.goal,
+              action.reverse};
+  if (const auto& profile = action.profile) {
+    made.profile = {profile->start, profile->cruise, profile->end, 1.0 / profile->inertia.rise,
+                    1.0 / profile->inertia.fall};
+  }
+  return made;
+}
+
+core::SpeedProfile profile_of(const Profile& profile) {
+  return {
+      profile.start, profile.cruise, profile.end, {1.0 / profile.acceleration, 1.0 / profile.deceleration}};
 }
 
 core::OccupancyGrid grid_of(const Map& map) {
@@ -78,6 +89,9 @@ core::Robot robot_of(const Robot& robot, const Frame& frame) {
   made.may_reverse = robot.may_reverse;
   made.vicinity = robot.vicinity;
   made.weight = robot.weight;
+  made.linear_acceleration = robot.linear_acceleration.value_or(core::Robot::kNoLimit);
+  made.linear_deceleration = robot.linear_deceleration.value_or(made.linear_acceleration);
+  made.angular_acceleration = robot.angular_acceleration.value_or(core::Robot::kNoLimit);
   for (const Goal& goal : robot.goals) {
     core::Goal& each = made.via.emplace_back();
     each.position = frame.to_core(goal.x, goal.y);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/geometry/moving_obstacle.h"
+#include "core/geometry/speed_profile.h"
 #include "core/map/occupancy_grid.h"
 #include "core/model/plan.h"
 #include "core/model/plan_options.h"
@@ -37,6 +38,7 @@ class Frame {
   core::Position origin_;
 };
 
+core::SpeedProfile profile_of(const Profile& profile);
 core::OccupancyGrid grid_of(const Map& map);
 /// Converts a robot without its committed and previous actions.
 core::Robot robot_of(const Robot& robot, const Frame& frame);

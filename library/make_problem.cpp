@@ -47,6 +47,12 @@ void check_robot(const Robot& robot, const std::string& place, FaultList& faults
   faults.check(robot.angular_speed, kAngularSpeed, place + ".angular_speed");
   faults.check(robot.vicinity, kLengthOrZero, place + ".vicinity");
   faults.check(robot.weight, kWeight, place + ".weight");
+  const auto check_limit = [&](const std::optional<double>& limit, const char* name) {
+    if (limit) faults.check(*limit, kAcceleration, place + name);
+  };
+  check_limit(robot.linear_acceleration, ".linear_acceleration");
+  check_limit(robot.linear_deceleration, ".linear_deceleration");
+  check_limit(robot.angular_acceleration, ".angular_acceleration");
   check_position(robot.start.x, robot.start.y, place + ".start", faults);
   faults.check(robot.start.theta, kAngle, place + ".start.theta");
   for (std::size_t k = 0; k < robot.goals.size(); ++k) {
@@ -150,9 +156,12 @@ ReadFleet read_fleet(const Problem& problem) {
     const std::string place = item("robots", k);
     check_robot(robot, place, faults);
     core::Robot& made = read.robots.emplace_back(robot_of(robot, frame));
-    made.committed = read_actions(robot.committed, made, frame, place + ".committed", faults);
-    if (robot.previous)
-      made.previous = read_actions(*robot.previous, made, frame, place + ".previous", faults);
+    made.committed =
+        read_actions(robot.committed, made, robot.committed.size(), frame, place + ".committed", faults);
+    if (robot.previous) {
+      made.previous =
+          read_actions(*robot.previous, made, robot.committed.size(), frame, place + ".previous", faults);
+    }
   }
   for (std::size_t k = 0; k < problem.obstacles.size(); ++k) {
     check_obstacle(problem.obstacles[k], item("obstacles", k), faults);

@@ -25,6 +25,8 @@ inline constexpr Range kLengthOrZero{0.0, kLargestExtent, " m"};
 inline constexpr Range kCoordinate{-kFarthestCoordinate, kFarthestCoordinate, " m"};
 inline constexpr Range kLinearSpeed{kLeastLinearSpeed, kMostLinearSpeed, " m/s"};
 inline constexpr Range kAngularSpeed{kLeastAngularSpeed, kMostAngularSpeed, " rad/s"};
+inline constexpr Range kAcceleration{kLeastAcceleration, kMostAcceleration, " per second squared"};
+inline constexpr Range kProfileSpeed{0.0, kMostAngularSpeed, ""};
 inline constexpr Range kDuration{0.0, kLongestTime, " s"};
 inline constexpr Range kAngle{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max(),
                               " rad"};

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/geometry/angle.h"
+#include "core/geometry/speed_profile.h"
 #include "core/geometry/tolerance.h"
 
 namespace fleetplan::library {
@@ -26,7 +27,10 @@ bool in_range(const Action& action) {
     return kCoordinate.contains(pose.x) && kCoordinate.contains(pose.y) && kAngle.contains(pose.theta);
   };
   return kDuration.contains(action.t_start) && kDuration.contains(action.t_end) && is_pose(action.from) &&
-         is_pose(action.to);
+         is_pose(action.to) &&
+         (!action.profile ||
+          (kProfileSpeed.contains(action.profile->start) && kProfileSpeed.contains(action.profile->cruise) &&
+           kProfileSpeed.contains(action.profile->end)));
 }
 
 /// Returns why an action cannot follow a pose and a time; null if it can.
@@ -62,20 +66,54 @@ const char* impossible(const core::Action& action, const core::Robot& robot) {
   return d.dot(heading) > kTolerance ? "leads ahead, although it reverses" : nullptr;
 }
 
+/// Returns why the profile of an action does not fit; null if it does. Only measured motion has none.
+/// `speed`: at the end of the action before; none: unknown.
+const char* unfit(const core::Action& action, const core::Robot& robot, std::optional<double> speed,
+                  bool may_be_measured) {
+  const bool turns = action.type == Type::rotate;
+  const double amount = turns ? turn(action.from, action.to) : distance(action.from, action.to);
+  const core::Inertia inertia = turns ? robot.angular_inertia() : robot.linear_inertia();
+  if (!action.profile) {
+    const bool has_to = !may_be_measured && action.type != Type::wait && inertia.any() && amount > kTolerance;
+    if (has_to) return "has no profile, but the robot's acceleration is limited";
+    const bool is_measured = action.type == Type::translate;
+    return speed.value_or(0.0) > kTolerance && !is_measured ? "begins at rest, unlike the one before ends"
+                                                            : nullptr;
+  }
+  const core::SpeedProfile& profile = *action.profile;
+  if (action.type == Type::wait) return "has a profile, but waits";
+  if (!(profile.cruise > 0.0) || profile.cruise < std::max(profile.start, profile.end)) {
+    return "has a profile whose cruise speed is 0, or less than start or end";
+  }
+  if (profile.cruise > (turns ? robot.angular_speed : robot.linear_speed) + kTolerance) {
+    return "has a profile that is faster than the robot";
+  }
+  if (speed && std::abs(profile.start - *speed) > kTolerance) {
+    return "has a profile that does not begin at the speed at which the one before ends";
+  }
+  const double changes = profile.rise_length() + profile.fall_length();
+  const double seconds = core::duration(profile, amount) - (action.t_end - action.t_start);
+  const bool fits = changes <= amount + kTolerance * (1.0 + profile.cruise) &&
+                    std::abs(seconds) * profile.cruise <= kTolerance * (1.0 + profile.cruise);
+  return fits ? nullptr : "has a profile that does not lead over its length in its time";
+}
+
 }  // namespace
 
 std::vector<core::Action> read_actions(const std::vector<Action>& actions, const core::Robot& robot,
-                                       const Frame& frame, const std::string& place, FaultList& faults) {
+                                       std::size_t measured, const Frame& frame, const std::string& place,
+                                       FaultList& faults) {
   std::vector<core::Action> read;
   read.reserve(actions.size());
   core::Pose before = robot.start;
   double now = 0.0;
+  std::optional<double> speed;
   for (std::size_t k = 0; k < actions.size(); ++k) {
     const auto refuse = [&](const std::string& why) {
       faults.add(item(place, k), "The action " + why + '.');
       return read;
     };
-    if (!in_range(actions[k])) return refuse("has a time or a coordinate out of range");
+    if (!in_range(actions[k])) return refuse("has a time, a coordinate or a speed out of range");
     if (actions[k].goal && actions[k].type != Action::Type::wait)
       return refuse("names a goal, but does not wait");
     if (actions[k].goal && *actions[k].goal >= robot.goal_count())
@@ -88,9 +126,19 @@ std::vector<core::Action> read_actions(const std::vector<Action>& actions, const
     if (action.type != Type::translate) action.to.position = action.from.position;
     if (action.type != Type::rotate) action.to.theta = action.from.theta;
     if (const char* why = impossible(action, robot)) return refuse(why);
+    if (action.profile) {
+      action.profile->inertia =
+          action.type == Type::rotate ? robot.angular_inertia() : robot.linear_inertia();
+    }
+    if (const char* why = unfit(action, robot, speed, k < measured)) return refuse(why);
+    speed.reset();
+    if (action.profile || action.type != Type::translate) speed = action.profile ? action.profile->end : 0.0;
     before = action.to;
     now = action.t_end;
     read.push_back(action);
+  }
+  if (speed.value_or(0.0) > kTolerance) {
+    faults.add(item(place, read.size() - 1), "The action ends at a speed; the last one has to end at rest.");
   }
   return read;
 }

@@ -3,12 +3,26 @@
 #include <fleetplan/pose.h>
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 
 namespace fleetplan {
 
-/// One rotation, translation or wait of a robot, from one pose to another, at constant speed.
+/// How the speed of a translation (metres per second) or a rotation (radians per second) changes: it rises at
+/// constant acceleration from `start` to `cruise`, stays, and falls at constant deceleration to `end`.
+struct Profile {
+  double start = 0.0;   // >= 0, at t_start; positive backwards, too
+  double cruise = 0.0;  // > 0, not less than start and end
+  double end = 0.0;     // >= 0, at t_end
+  /// Per second squared: those of the robot. Infinite: at once. Of committed and previous actions, they need
+  /// not be given.
+  double acceleration = std::numeric_limits<double>::infinity();
+  double deceleration = std::numeric_limits<double>::infinity();
+};
+
+/// One rotation, translation or wait of a robot, from one pose to another, at constant speed or with a
+/// profile.
 struct Action {
   enum class Type {
     rotate,     // in place, the shorter way; exactly half a turn is counter-clockwise
@@ -25,6 +39,8 @@ struct Action {
   std::optional<std::size_t> goal;
   /// Whether the robot translates backwards: the heading is opposite to the direction of motion.
   bool reverse = false;
+  /// The speed of a robot whose acceleration is limited; none: constant, as measured motion is.
+  std::optional<Profile> profile = {};
 };
 
 /// Returns the pose at time `t` (seconds) of a robot that begins in `start` and executes contiguous actions:

@@ -24,8 +24,9 @@ struct Goal {
 };
 
 /// A differential-drive robot: an open disk that waits, rotates in place or translates straight ahead (or
-/// back, see `may_reverse`). It has no inertia. Touching is allowed, overlapping is not. limits.h has the
-/// ranges.
+/// back, see `may_reverse`). Its speed changes at once, unless acceleration is limited; then every
+/// translation and rotation begins and ends at rest. Touching is allowed, overlapping is not. limits.h has
+/// the ranges.
 struct Robot {
   std::string id;              // for your own use; may be empty, need not be unique
   double radius = 0.0;         // metres, > 0
@@ -37,7 +38,8 @@ struct Robot {
   std::vector<Goal> goals;
 
   /// The actions that the robot executes whatever is planned: contiguous from t = 0 in `start`, none faster
-  /// than the robot. The plan begins with these actions. Gaps of up to 5e-7 are closed.
+  /// than the robot, and the last one to rest. The plan begins with these actions. Gaps of up to 5e-7 are
+  /// closed.
   std::vector<Action> committed;
   /// The actions of an earlier plan, also from t = 0 in `start`, the committed ones included. The planner
   /// keeps them or begins with them, see Options::replan.
@@ -46,6 +48,12 @@ struct Robot {
   bool may_reverse = false;  // it may translate backwards
   double vicinity = 0.0;     // metres, >= 0: added to its radius against other robots only
   double weight = 1.0;       // > 0: its cost and its delays count so many times in the objective
+
+  /// Metres per second squared, > 0: how fast the speed of a translation rises and falls; radians per second
+  /// squared, of rotations both ways. None: no limit; of the deceleration: that of the acceleration.
+  std::optional<double> linear_acceleration = {};
+  std::optional<double> linear_deceleration = {};
+  std::optional<double> angular_acceleration = {};
 };
 
 }  // namespace fleetplan

@@ -22,7 +22,7 @@ struct Violation {
     obstacle_collision,  // a disk overlaps a blocked cell or leaves the map: metres to it, and the radius
     discontinuity,       // a gap in time or space, an action that contradicts its type, or a wrong cost
     speed,               // faster than the robot, or off the line of its heading
-    profile,             // changes of speed that do not fit; robots of this library have no inertia
+    profile,             // changes of speed that do not fit: a speed, seconds, metres or radians
     wrong_start,         // metres or radians from the start
     wrong_goal,          // metres or radians from the last goal, at rest
     wrong_visit,         // a goal that is not served in its order, in time and for its service

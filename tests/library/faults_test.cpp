@@ -90,6 +90,36 @@ TEST(PublicFaults, NameCommittedActionsThatTheRobotCannotExecute) {
   EXPECT_THAT(places(parked), testing::Contains("robots[0].committed"));
 }
 
+TEST(PublicFaults, NameProfilesThatDoNotFit) {
+  using Type = Action::Type;
+  const Pose start{0.5, 0.5, 0.0};
+  const auto places_with = [&](const std::optional<Profile>& profile, double x, double seconds = 7.5) {
+    Problem problem = corridor_swap();
+    problem.robots[0].linear_acceleration = 1.0;
+    problem.robots[0].linear_deceleration = 0.5;
+    const Action action{Type::translate, 0.0, seconds, start, {x, 0.5, 0.0}, {}, false, profile};
+    problem.robots[0].committed = {action};
+    problem.robots[1].start = {8.5, 1.5, 0.0};
+    problem.robots[1].goals.clear();
+    problem.map = Map::from_rows({".........", "........."}, 1.0);
+    return places(problem);
+  };
+  EXPECT_THAT(places_with(Profile{0.0, 1.0, 0.0}, 6.5), IsEmpty());
+  EXPECT_THAT(places_with(std::nullopt, 6.5), IsEmpty()) << "measured";
+  for (const Profile& profile : {Profile{0.0, 0.9, 0.0}, Profile{0.0, 1.1, 0.0}, Profile{0.5, 0.2, 0.0},
+                                 Profile{0.0, 0.0, 0.0}, Profile{-0.1, 1.0, 0.0}}) {
+    EXPECT_THAT(places_with(profile, 6.5), ElementsAre("robots[0].committed[0]")) << profile.cruise;
+  }
+  EXPECT_THAT(places_with(Profile{0.0, 1.0, 1.0}, 6.5, 6.5), ElementsAre("robots[0].committed[0]"))
+      << "ends at a speed";
+  Problem problem = corridor_swap();
+  problem.robots[0].linear_acceleration = 0.0;
+  problem.robots[0].linear_deceleration = -1.0;
+  problem.robots[1].angular_acceleration = 1e7;
+  EXPECT_THAT(places(problem), ElementsAre("robots[0].linear_acceleration", "robots[0].linear_deceleration",
+                                           "robots[1].angular_acceleration"));
+}
+
 TEST(PublicFaults, AreThrownByThePlanner) {
   Problem problem = corridor_swap();
   problem.robots[1].radius = -1.0;

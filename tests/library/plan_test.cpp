@@ -42,6 +42,62 @@ TEST(PublicPlan, IsTheSameAtAnyOrigin) {
   EXPECT_NEAR(end.y, -499.5, 1e-9);
 }
 
+/// Robots of the corridor need 1 s and half a metre to start, and 2 s and a metre to stop.
+Problem heavy_corridor() {
+  Problem problem = corridor_swap();
+  for (Robot& robot : problem.robots) {
+    robot.linear_acceleration = 1.0;
+    robot.linear_deceleration = 0.5;
+    robot.angular_acceleration = 4.0;
+  }
+  return problem;
+}
+
+TEST(PublicPlan, HasProfilesIfAccelerationIsLimited) {
+  Problem problem = heavy_corridor();
+  problem.robots.pop_back();
+  const Plan alone = plan(problem);
+  const std::vector<Action>& actions = alone.plans[0].actions;
+  ASSERT_EQ(actions.size(), 1U);
+  ASSERT_TRUE(actions[0].profile.has_value());
+  EXPECT_EQ(actions[0].profile->cruise, 1.0);
+  EXPECT_EQ(actions[0].profile->acceleration, 1.0);
+  EXPECT_EQ(actions[0].profile->deceleration, 0.5);
+  EXPECT_NEAR(alone.plans[0].cost, 8.0 + 0.5 + 1.0, 1e-9);
+  const Pose& start = problem.robots[0].start;
+  EXPECT_NEAR(pose_at(actions, start, 0.5).x, 0.5 + 0.125, 1e-9);
+  EXPECT_NEAR(pose_at(actions, start, 1.0).x, 0.5 + 0.5, 1e-9);
+  EXPECT_NEAR(pose_at(actions, start, 5.0).x, 0.5 + 4.5, 1e-9);
+  EXPECT_NEAR(pose_at(actions, start, 8.5).x, 8.5 - 0.25, 1e-9);
+  EXPECT_EQ(pose_at(actions, start, 9.5).x, 8.5);
+}
+
+TEST(PublicPlan, WithProfilesIsVerifiedAndCanBeCommitted) {
+  Problem problem = heavy_corridor();
+  const Plan first = plan(problem);
+  EXPECT_EQ(first.status, Status::solved);
+  EXPECT_TRUE(first.verified);
+  EXPECT_TRUE(verify(problem, first).valid());
+  Plan without = first;
+  for (RobotPlan& robot : without.plans) {
+    for (Action& action : robot.actions) action.profile.reset();
+  }
+  const Verification found = verify(problem, without.plans);
+  ASSERT_FALSE(found.violations.empty());
+  EXPECT_EQ(found.violations[0].kind, Violation::Kind::profile);
+  for (std::size_t robot = 0; robot < 2; ++robot) {
+    problem.robots[robot].committed = first.plans[robot].actions;
+    for (Action& action : problem.robots[robot].committed) {
+      if (action.profile) action.profile->acceleration = action.profile->deceleration = 7.0;  // not read
+    }
+  }
+  const Plan second = plan(problem);
+  EXPECT_EQ(second.status, Status::solved);
+  EXPECT_TRUE(second.verified);
+  EXPECT_DOUBLE_EQ(second.objectives.flowtime, first.objectives.flowtime);
+  ASSERT_TRUE(second.plans[0].actions.front().profile.has_value());
+}
+
 TEST(PublicPlan, GoesOnFromWhatIsCommittedAndKeepsThePreviousPlan) {
   Problem problem = corridor_swap();
   const Plan first = plan(problem);
