@@ -183,7 +183,8 @@ Remainder remainder_of(const core::Robot& robot, const Execution& execution, con
   if (located.is_elsewhere) return {*measured, {}};
   if (!execution.reported && !measured) return remainder(robot, actions, moment.at);
   Remainder rest = execution.reported ? remainder_of_reported(robot, execution, progress, moment.at)
-                                      : remainder_of_measured(robot, actions, *measured, progress, moment.at);
+                                      : remainder_of_measured(robot, actions, *measured, progress, moment.at,
+                                                              execution.speed);
   const bool is_in_line = execution.stop_distance > 0.0 && progress.action + 1 < actions.size() &&
                           goes_on(actions[progress.action], actions[progress.action + 1]);
   const bool stops = rest.actions.size() > 2 && rest.actions[0].type == Action::Type::translate &&
@@ -197,7 +198,7 @@ Remainder remainder_of(const core::Robot& robot, const Execution& execution, con
 bool drives(const core::Robot& robot, const Execution& execution, const Progress& progress) {
   const Actions& actions = execution.actions;
   const auto [index, t] = progress;
-  const auto speed = execution.reported ? execution.reported->speed : std::nullopt;
+  const auto& speed = execution.speed;
   if (speed && std::abs(*speed) < kLeastLinearSpeed) return false;
   if (index >= actions.size() || actions[index].type != Action::Type::translate) return false;
   if (t >= actions[index].t_end)

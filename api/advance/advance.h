@@ -44,7 +44,6 @@ struct ReportedState {
   Place place;                              // in one of its actions
   std::optional<double> service_left = {};  // seconds, if the action is a service
   std::optional<Place> released = {};       // it may drive to there; nobody can take that back
-  std::optional<double> speed = {};         // metres per second, negative backwards
 };
 
 /// What a robot does, and what happened to it.
@@ -53,6 +52,7 @@ struct Execution {
   bool planned = false;               // they are a plan; otherwise a commitment, at whose end it stays
   std::optional<core::Pose> measured = {};
   std::optional<ReportedState> reported = {};  // measured there, if it has a measured pose, too
+  std::optional<double> speed = {};            // measured, metres per second, negative backwards
   std::optional<double> hold = {};             // until then on the clock of the moment
   std::optional<std::vector<core::Goal>> goals = {};
   double stop_distance = 0.0;      // metres that it drives until it can stand, if it drives at the moment
@@ -137,9 +137,11 @@ Remainder remainder(const core::Robot& robot, const std::vector<core::Action>& a
 
 /// The remainder of a robot that was measured. It continues a translation straight from the pose to its end,
 /// and a rotation from its heading, at the planned speed. The other actions follow as much later as this ends
-/// later; if it ends earlier, the robot waits. A robot that stands is where its plan has it.
+/// later; if it ends earlier, the robot waits. A robot that stands is where its plan has it. `speed`:
+/// measured, metres per second; one with a profile goes on from there, by default from the planned speed.
 Remainder remainder_of_measured(const core::Robot& robot, const std::vector<core::Action>& actions,
-                                const core::Pose& pose, const Progress& progress, double at);
+                                const core::Pose& pose, const Progress& progress, double at,
+                                std::optional<double> speed = {});
 
 /// The remainder of a robot that has reported its progress. It goes on in the same way from the measured
 /// pose, or from where its plan has it then. A wait goes on for what is left of it. In a wait for a goal,

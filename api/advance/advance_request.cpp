@@ -25,12 +25,10 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> kPoseMembers{"robot", "x", "y", "theta"};
+constexpr std::array<std::string_view, 5> kPoseMembers{"robot", "x", "y", "theta", "speed"};
 constexpr std::array<std::string_view, 9> kStateMembers{"robot", "action", "progress", "service_left", "x",
                                                         "y",     "theta",  "speed",    "released"};
 constexpr std::array<std::string_view, 2> kPlaceMembers{"action", "progress"};
-/// Backwards, a robot has a negative speed.
-constexpr Range kMeasuredSpeed{-kMostLinearSpeed, kMostLinearSpeed, "metres per second"};
 constexpr std::array<std::string_view, 2> kHoldMembers{"robot", "until"};
 constexpr std::array<std::string_view, 2> kGoalsMembers{"robot", "goals"};
 
@@ -64,7 +62,10 @@ void parse_events(const JsonReader& root, const RobotNames& names, const Limits&
   Quota quota(limits.max_goals, "goals");
   read_entries(root.find("poses"), kPoseMembers, names, [&](const JsonReader& entry, auto robot) {
     const auto pose = parse_measured(entry);
-    if (robot) executions[*robot].measured = pose;
+    const auto speed = entry.find("speed").number(kMeasuredSpeed);
+    if (!robot) return;
+    executions[*robot].measured = pose;
+    executions[*robot].speed = speed;
   });
   read_entries(root.find("holds"), kHoldMembers, names, [&](const JsonReader& entry, auto robot) {
     const auto until = entry.require("until").number(kDuration);
@@ -136,7 +137,7 @@ void parse_state(const JsonReader& entry, const core::Robot& robot, Execution& e
   const auto number = parse_action_number(entry.require("action"), robot, actions);
   const auto fraction = entry.require("progress").number(kFraction);
   const auto service_left = left_member.number(kDuration);
-  const auto speed = entry.find("speed").number(kMeasuredSpeed);
+  execution.speed = entry.find("speed").number(kMeasuredSpeed);
   if (!number || !fraction) return;
   const core::Action& action = actions[*number];
   const bool is_service = action.goal && *action.goal < robot.goal_count();
@@ -146,7 +147,7 @@ void parse_state(const JsonReader& entry, const core::Robot& robot, Execution& e
              " is no service, which is a wait with goal: leave service_left out.";
     });
   }
-  execution.reported = ReportedState{{*number, *fraction}, service_left, {}, speed};
+  execution.reported = ReportedState{{*number, *fraction}, service_left, {}};
   execution.reported->released =
       parse_released(entry.find("released"), robot, execution.reported->place, actions);
   execution.measured = parse_measured_at(entry, pose_of(actions, *execution.reported));
@@ -227,9 +228,25 @@ namespace {
 constexpr std::array<std::string_view, 6> kChanging{"start",     "goal",     "goals",
                                                     "committed", "previous", "goal_age"};
 
+void write_coordinates(JsonWriter& json, const core::Pose& pose) {
+  json.member("x", pose.position.x()).member("y", pose.position.y()).member("theta", pose.theta);
+}
+
 void write_pose(JsonWriter& json, std::string_view key, const core::Pose& pose) {
   json.key(key).begin_object();
-  json.member("x", pose.position.x()).member("y", pose.position.y()).member("theta", pose.theta);
+  write_coordinates(json, pose);
+  json.end_object();
+}
+
+/// With the speed, if the robot is under way.
+void write_start(JsonWriter& json, const core::Robot& robot) {
+  json.key("start").begin_object();
+  write_coordinates(json, robot.start);
+  if (!robot.committed.empty() && robot.committed.front().type == core::Action::Type::translate) {
+    const core::Action& first = robot.committed.front();
+    const double speed = first.profile ? first.profile->start : 0.0;
+    if (speed > 0.0) json.member("speed", first.reverse ? -speed : speed);
+  }
   json.end_object();
 }
 
@@ -315,7 +332,7 @@ void write_robot(JsonWriter& json, const JsonValue& given, double radius, const 
     copy_json(json, member);
   }
   if (has_other_radius) json.member("radius", robot.radius);
-  write_pose(json, "start", robot.start);
+  write_start(json, robot);
   const bool is_listed = given.find("goals").has_value() || texts.are_other();
   write_goals(json, robot, texts, given.find("goal").has_value() || !is_listed);
   if (robot.goal_age > 0.0) json.member("goal_age", robot.goal_age);

@@ -184,6 +184,11 @@ double wait_left(const core::Robot& robot, const Action& wait, double t, std::op
   return t < begin ? std::max(0.0, begin - at) + left : left;
 }
 
+/// The measured speed, or the planned one at a time.
+double speed_of(const Action& action, double t, const std::optional<double>& measured) {
+  return measured ? std::abs(*measured) : core::speed_at(action, t);
+}
+
 /// The last of the actions from this one on that go on with the same service.
 std::size_t end_of_service(const Actions& actions, std::size_t index) {
   const auto goes_on = [&](std::size_t next) {
@@ -289,11 +294,11 @@ Remainder remainder(const core::Robot& robot, const Actions& actions, double at)
 }
 
 Remainder remainder_of_measured(const core::Robot& robot, const Actions& actions, const Pose& pose,
-                                const Progress& progress, double at) {
+                                const Progress& progress, double at, std::optional<double> speed) {
   if (progress.action == actions.size()) return remainder(robot, actions, at);
   const Action& planned = actions[progress.action];
   return continued_from(robot, pose, planned, shifted(actions, progress.action + 1, at),
-                        std::max(0.0, planned.t_end - at), core::speed_at(planned, progress.t));
+                        std::max(0.0, planned.t_end - at), speed_of(planned, progress.t, speed));
 }
 
 Remainder remainder_of_reported(const core::Robot& robot, const Execution& execution,
@@ -301,12 +306,11 @@ Remainder remainder_of_reported(const core::Robot& robot, const Execution& execu
   const Actions& actions = execution.actions;
   const Action& planned = actions[progress.action];
   const auto& service_left = execution.reported->service_left;
-  const auto& speed = execution.reported->speed;
   const std::size_t last = service_left ? end_of_service(actions, progress.action) : progress.action;
   return continued_from(robot, execution.measured.value_or(pose_at(planned, progress.t)), planned,
                         shifted(actions, last + 1, at),
                         wait_left(robot, planned, progress.t, service_left, at),
-                        speed ? std::abs(*speed) : core::speed_at(planned, progress.t));
+                        speed_of(planned, progress.t, execution.speed));
 }
 
 bool goes_on(const Action& action, const Action& next) {

@@ -19,6 +19,8 @@ inline constexpr Range kLinearAcceleration{kLeastAcceleration, kMostAcceleration
                                            "metres per second squared"};
 inline constexpr Range kAngularAcceleration{kLeastAcceleration, kMostAcceleration,
                                             "radians per second squared"};
+/// Backwards, a robot has a negative speed.
+inline constexpr Range kMeasuredSpeed{-kMostLinearSpeed, kMostLinearSpeed, "metres per second"};
 /// Of a profile of speed.
 inline constexpr Range kProfileSpeed{0.0, kMostAngularSpeed, "metres or radians per second"};
 inline constexpr Range kDuration{0.0, kLongestTime, "seconds"};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@
 #include "api/request/ranges.h"
 #include "api/request/shared_members.h"
 #include "core/geometry/angle.h"
+#include "core/geometry/tolerance.h"
 
 namespace fleetplan::api {
 
@@ -120,6 +122,7 @@ constexpr std::array<std::string_view, 1 + kTraits.size() + count> members_of_ro
 constexpr auto kRobotMembers = members_of_robot(std::array<std::string_view, 9>{
     "start", "goal", "goals", "goal_age", "weight", "idle", "committed", "previous", "metadata"});
 constexpr auto kLoneRobotMembers = members_of_robot(std::array<std::string_view, 1>{"metadata"});
+constexpr std::array<std::string_view, 4> kStartMembers{"x", "y", "theta", "speed"};
 constexpr std::array<std::string_view, 3> kIdle{"stay", "yield", "return"};  // see Idle
 
 /// A number that `robot_defaults` can give as well.
@@ -244,13 +247,14 @@ class RobotReader {
                        .angular_speed = traits.angular_speed.value,
                        .may_reverse = robot.may_reverse};
     read.start = json.require("start", "; give {\"x\", \"y\"} and optionally \"theta\"");
-    if (const auto start = parse_plain_pose(read.start, frame_)) {
+    if (const auto start = parse_pose(read.start.object(kStartMembers), frame_)) {
       robot.start = {start->position, start->theta.value_or(0.0)};
       owner.start = robot.start;
     }
     read.placed = owner.start && traits.radius.value;
     read_goals(json, read);
     read_actions(json, owner, read);
+    check_speed(read);
     read_idle(json.find("idle"), read);
     return read;
   }
@@ -291,6 +295,30 @@ class RobotReader {
       read.robot.previous = std::move(previous->actions);
       read.received_previous = std::move(previous->received);
     }
+  }
+
+  /// A robot whose acceleration is limited is under way only if it is committed to go on so.
+  static void check_speed(const ParsedRobot& read) {
+    const JsonReader member = read.start.find("speed");
+    const auto speed = member.number(kMeasuredSpeed);
+    const core::Robot& robot = read.robot;
+    if (!speed || !robot.linear_inertia().any()) return;
+    double begins = 0.0;
+    if (!robot.committed.empty() && robot.committed.front().type == core::Action::Type::translate) {
+      const core::Action& first = robot.committed.front();
+      if (!first.profile) return;  // measured
+      begins = first.reverse ? -first.profile->start : first.profile->start;
+    } else if (read.committed && robot.committed.empty() && read.committed.array().size() > 0) {
+      return;  // at fault
+    }
+    if (std::abs(*speed - begins) <= core::kContactTolerance) return;
+    member.fault(fault::kProfile, [&] {
+      return "The robot starts at a speed of " + number_text(*speed) + ", but " +
+             (begins == 0.0 ? "its committed actions do not begin with a translation at speed"
+                            : "its committed actions begin at " + number_text(begins)) +
+             "; give the motion that it cannot leave out as committed, as /v1/advance does, from this speed "
+             "on.";
+    });
   }
 
   std::optional<ParsedActions> parse(const JsonReader& member, const ActionsOwner& owner) {

@@ -25,6 +25,7 @@ class Start(TypedDict):
     x: float
     y: float
     theta: NotRequired[float]
+    speed: NotRequired[float]
 
 
 # ---------------------------------------------------------------- maps
@@ -595,11 +596,15 @@ SimulationEvent: TypeAlias = SimulationProgressEvent | SimulatedEvent
 # ---------------------------------------------------------------- /v1/advance
 
 
-class MeasuredPose(TypedDict):
+class VehiclePose(TypedDict):
     robot: str
     x: float
     y: float
     theta: float
+
+
+class MeasuredPose(VehiclePose):
+    speed: NotRequired[float]
 
 
 class RobotState(TypedDict):
@@ -786,7 +791,7 @@ class VehicleReport(TypedDict):
 
 class Vda5050States(TypedDict):
     states: list[RobotState]
-    poses: list[MeasuredPose]
+    poses: list[VehiclePose]
     progress: list[OrderProgress]
     vehicles: list[VehicleReport]
 

@@ -49,7 +49,8 @@ TEST(StopDistance, ARobotKnowsWhetherItDrives) {
   DrivingFleet line;
   line.add_on_line(1.0, 9.0, 0.5);
   const auto committed_until = [&](double progress, double speed) {
-    line.executions[0].reported = ReportedState{{0, progress}, {}, {}, speed};
+    line.executions[0].reported = ReportedState{{0, progress}, {}, {}};
+    line.executions[0].speed = speed;
     return line.advance(2.0, 0.0)[0].committed_until();
   };
   EXPECT_DOUBLE_EQ(committed_until(0.25, 0.9), 0.5);
@@ -65,7 +66,8 @@ TEST(StopDistance, OneThatStandsIsInNobodysWay) {
   line.add_on_line(1.0, 9.0, 2.0);
   line.add_on_line(4.0, 4.0, 0.0);
   EXPECT_EQ(line.collisions(2.0, 0.0).size(), 1U);
-  line.executions[0].reported = ReportedState{{0, 0.25}, {}, {}, 0.0};
+  line.executions[0].reported = ReportedState{{0, 0.25}, {}, {}};
+  line.executions[0].speed = 0.0;
   EXPECT_TRUE(line.collisions(2.0, 0.0).empty());
 }
 
@@ -91,7 +93,7 @@ TEST(StopDistance, AnEarlyRobotDrivesOnWhereItsPlanHasNoStop) {
   line.executions[0].actions = {{Type::translate, 0.0, 2.2, at_x(1.0), border},
                                 {Type::translate, 2.2, 3.2, border, at_x(4.2)},
                                 {Type::rotate, 3.2, 4.2, at_x(4.2), at_x(4.2, 1.0)}};
-  line.executions[0].reported = ReportedState{{0, 2.0 / 2.2}, {}, {}, {}};  // at 3 m, a second early
+  line.executions[0].reported = ReportedState{{0, 2.0 / 2.2}, {}, {}};  // at 3 m, a second early
   const core::Robot next = line.advance(1.0, 0.0)[0];
   EXPECT_DOUBLE_EQ(next.committed_end().position.x(), 3.5);
   EXPECT_NEAR(next.committed_until(), 0.5, 1e-9);

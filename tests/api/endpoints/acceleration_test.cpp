@@ -178,6 +178,94 @@ TEST(Advance, CommitsARobotUntilItCanStand) {
   EXPECT_EQ(again["verified"], true);
 }
 
+/// The request with its plans and dependencies.
+Json with_dependencies(Json request) {
+  request["options"] = {{"dependencies", true}, {"interval_margin", 1.0}};
+  const Json answer = plan_of(request);
+  EXPECT_TRUE(answer["tight"].empty());
+  request["plans"] = answer["plans"];
+  request["dependencies"] = answer["dependencies"];
+  request.erase("options");
+  return request;
+}
+
+Json reply_of(Reply (*endpoint)(std::string_view, const RequestContext&), const Json& request) {
+  const Reply reply = endpoint(request.dump(), {});
+  EXPECT_EQ(reply.status, 200) << reply.body;
+  return json_of(reply);
+}
+
+TEST(Simulation, FollowsProfiles) {
+  Json request = with_dependencies(request_with_inertia());
+  request["runs"] = 5;
+  request["trace"] = 3;
+  for (const char* policy : {"open_loop", "absorb_waits", "dependencies"}) {
+    request["policy"] = policy;
+    const Json undisturbed = reply_of(simulate_endpoint, request);
+    EXPECT_TRUE(undisturbed["warnings"].empty()) << undisturbed["warnings"];
+    EXPECT_EQ(undisturbed["collision_share"], 0.0);
+    EXPECT_EQ(verdict_on(request, undisturbed["trace"]["plans"])["valid"], true) << policy;
+  }
+  request["disturbance"] = Json::parse(R"({"speed": {"min": 0.4, "max": 0.8}, "turn": {"min": 0.6, "max": 1},
+    "stops": {"rate_per_hour": 900, "mean_s": 2}, "start_delay": {"min": 0, "max": 0.2}})");
+  const Json late = reply_of(simulate_endpoint, request);
+  EXPECT_EQ(late["collision_share"], 0.0);
+  EXPECT_EQ(late["deadlock_share"], 0.0);
+  EXPECT_GT(late["flowtime"]["mean"], late["planned"]["flowtime"]);
+  EXPECT_EQ(verdict_on(request, late["trace"]["plans"])["valid"], true);
+  EXPECT_EQ(reply_of(simulate_endpoint, request)["trace"], late["trace"]);
+}
+
+TEST(Retime, TakesTimeToStartAgain) {
+  Json request = corridor();
+  request["plans"] = plan_of(request)["plans"];
+  request["dependencies"] = Json::array();
+  request.erase("map");
+  request["at"] = 5.0;
+  request["states"] = Json::array();
+  EXPECT_NEAR(reply_of(retime_endpoint, request)["robots"][0]["t_end"], 12.0, 1e-9);
+  // At 8.5 m, with 10 m to go, it is held for 2 s.
+  request["states"] = {{{"robot", "a"}, {"action", 0}, {"progress", 8.0 / 18.0}, {"held_s", 2.0}}};
+  EXPECT_NEAR(reply_of(retime_endpoint, request)["robots"][0]["t_end"], 5 + 2 + 10.0 / 2 + 1 + 2, 1e-9);
+}
+
+TEST(Advance, TellsTheSpeedAtTheStart) {
+  const Json request = corridor();
+  Json next = advanced(request, plan_of(request), 5.0, {{"commit", 1.0}});
+  Json& start = next["robots"][0]["start"];
+  EXPECT_EQ(start["speed"], 2.0);
+  EXPECT_EQ(plan_of(next)["status"], "solved");
+  const Faults wrong{{"/robots/0/start/speed", "profile"}};
+  start["speed"] = 1.5;
+  EXPECT_EQ(brief_faults_of(next), wrong) << "not the speed of what is committed";
+  start["speed"] = -2.0;
+  EXPECT_EQ(brief_faults_of(next), wrong) << "backwards";
+  start["speed"] = 2000.0;
+  EXPECT_EQ(brief_faults_of(next), (Faults{{"/robots/0/start/speed", "out_of_range"}}));
+  start["speed"] = 2.0;
+  next["robots"][0].erase("committed");
+  next["robots"][0].erase("previous");
+  EXPECT_EQ(brief_faults_of(next), wrong) << "nothing is committed";
+  next["robots"][0].erase("linear_acceleration");
+  next["robots"][0].erase("linear_deceleration");
+  EXPECT_EQ(brief_faults_of(next), Faults{}) << "it stops at once";
+  EXPECT_FALSE(advanced(request, plan_of(request), 0.0)["robots"][0]["start"].contains("speed"));
+}
+
+TEST(Advance, GoesOnFromTheSpeedOfAMeasuredPose) {
+  const Json request = corridor();
+  const auto with_speed = [&](const Json& speed) {
+    Json pose{{"robot", "a"}, {"x", 8.5}, {"y", 0.5}, {"theta", 0.0}};
+    if (!speed.is_null()) pose["speed"] = speed;
+    return advanced(request, plan_of(request), 5.0, {{"poses", {pose}}, {"commit", 0.0}})["robots"][0];
+  };
+  EXPECT_EQ(with_speed(nullptr)["start"]["speed"], 2.0) << "as planned";
+  const Json slow = with_speed(1.0);
+  EXPECT_EQ(slow["start"]["speed"], 1.0);
+  EXPECT_NEAR(slow["committed"][0]["to"]["x"], 9.5, 1e-9) << "it brakes for 2 s";
+  EXPECT_TRUE(with_speed(0.0).value("committed", Json::array()).empty()) << "it stands";
+}
+
 TEST(Advance, WithoutACommitmentBrakesFromNowOn) {
   const Json request = corridor();
   const Json next = advanced(request, plan_of(request), 1.0, {{"commit", 0.0}});
