@@ -8,7 +8,7 @@ import unittest
 from support import PROJECT, met, service
 
 from fleetplan import Client, Executor, Report
-from fleetplan.course import Course, Move
+from fleetplan.course import Course, Limits, Move
 from fleetplan.simulation import SimulatedFleet
 
 
@@ -190,6 +190,23 @@ class ByHand(unittest.TestCase):
         # It goes on for the reaction, and then brakes.
         self.assertAlmostEqual(near.speed * 0.5 + near.speed ** 2 / (2 * 0.5), 0.5)
 
+    def test_a_robot_of_the_request_brakes_as_it_can_and_slows_down_for_the_next_action(self):
+        course = actions(("translate", 6.0), ("translate", 4.0))
+        course[0] |= {"t_end": 7.125, "profile": {"start": 0.0, "cruise": 1.0, "end": 0.5}}
+        course[1] |= {"t_start": 7.125, "t_end": 15.625, "profile": {"start": 0.5, "cruise": 0.5, "end": 0.0}}
+        request, answer = planned({"a": course})
+        request["robot_defaults"] = {"linear_acceleration": 1.0, "linear_deceleration": 0.5}
+        executor = Executor(request, answer, 0.0)
+        self.assertEqual(self.instruction(executor).speed, 1.0)
+        executor.report(Report("a", pose(5.5), speed=1.0), 5.0)
+        slows_down = self.instruction(executor, now=5.0)
+        self.assertEqual((slows_down.target, slows_down.room), (pose(6.0), 4.5))
+        self.assertAlmostEqual(slows_down.speed, math.sqrt(0.5 ** 2 + 2 * 0.5 * 0.5))
+        executor.report(Report("a", pose(9.9), speed=0.4), 15.0)
+        self.assertAlmostEqual(self.instruction(executor, now=15.0).speed, math.sqrt(2 * 0.5 * 0.1))
+        light = Executor(request, answer, 0.0, deceleration={"a": 0.01})
+        self.assertLess(self.instruction(light).speed, 0.5)
+
     def test_robots_may_brake_differently(self):
         plans = {robot: actions(("translate", 0.1)) for robot in "ab"}
         executor = self.executor(plans, deceleration={"a": 0.1})
@@ -342,6 +359,18 @@ class Courses(unittest.TestCase):
             for axis in ("x", "y", "theta"):
                 self.assertAlmostEqual(math.remainder(cut.pose(there)[axis] - whole.pose(end)[axis], math.tau), 0.0, 6)
 
+    def test_planned_times_and_places_follow_profiles(self):
+        course = actions(("rotate", 1.0), ("translate", 18.0))
+        course[0] |= {"t_end": 2.0, "profile": {"start": 0.0, "cruise": 1.0, "end": 0.0}}
+        course[1] |= {"t_start": 2.0, "t_end": 14.0, "profile": {"start": 0.0, "cruise": 2.0, "end": 0.0}}
+        moves = Course(pose(0.0), course, limits=Limits(1.0, 0.5, 1.0))
+        for t, place in ((0.5, 0.125), (1.0, 0.5), (1.5, 0.875), (3.0, 1 + 0.5 / 18), (4.0, 1 + 2.0 / 18),
+                         (10.0, 1 + 14.0 / 18), (12.0, 1 + 17.0 / 18), (14.0, 2.0)):
+            self.assertAlmostEqual(moves.place_at(t), place)
+            if 1.0 < place < 2.0:
+                self.assertAlmostEqual(moves.time_at(place), t)
+        self.assertEqual(moves.planned_speed(1), 2.0)
+
     def test_moves_end_where_the_other_course_leads_elsewhere(self):
         course = Course(pose(0.0), actions(("translate", 1.0), ("rotate", 1.0)))
         self.assertEqual(course.after(0.0, [Move("translate", 3.0)]), 1.0)
@@ -378,6 +407,9 @@ class WithRobots(unittest.TestCase):
             cls.request["robots"] = cls.request["robots"][:25]
             cls.request["options"] = {"dependencies": True, "interval_margin": 0.5, "time_budget_ms": 60000}
             cls.answer = client.plan(cls.request)
+            limits = {"linear_acceleration": 0.5, "linear_deceleration": 0.8}
+            cls.accelerating = cls.request | {"robot_defaults": cls.request["robot_defaults"] | limits}
+            cls.with_profiles = client.plan(cls.accelerating)
 
     def execute(self, robots, **how):
         """The fleet that has executed the plan, and the robots that have passed closed gates. Poses are exact."""
@@ -409,6 +441,24 @@ class WithRobots(unittest.TestCase):
         fleet, overran = self.execute({"seed": 7, "acceleration": 0.6}, deceleration=0.5, reaction=0.2)
         self.assertEqual(overran, set())
         self.assert_all_have_arrived_and_met_nobody(fleet)
+
+    def test_robots_that_accelerate_as_planned_arrive_as_planned(self):
+        fleet = SimulatedFleet(self.accelerating, speed=(1.0, 1.0))
+        executor = Executor(self.accelerating, self.with_profiles, 0.0, early=False)
+        arrivals = {}
+        while not executor.finished:
+            fleet.obey(executor.instructions(fleet.now))
+            fleet.drive(0.1)
+            for report in fleet.reports():
+                executor.report(report, fleet.now)
+            self.assertEqual(executor.overran, [])
+            for robot in executor.served:
+                arrivals.setdefault(robot, fleet.now)
+            self.assertLess(fleet.now, 600.0, "robots wait for each other")
+        self.assertEqual(met(self.accelerating, fleet), ([], []))
+        plans = self.with_profiles["plans"]
+        late = sum(arrivals[plan["robot"]] for plan in plans) / sum(plan["cost"] for plan in plans)
+        self.assertLess(late, 1.05)
 
     def test_robots_with_inertia_that_brake_too_late_pass_gates(self):
         _, overran = self.execute({"seed": 7, "acceleration": 0.6})

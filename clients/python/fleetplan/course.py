@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from fleetplan.types import Action, ActionPlace, ActionProgress, Goal, Pose
+from fleetplan.types import Action, ActionPlace, ActionProgress, Goal, PlanRequest, Pose, Robot
 
 Place: TypeAlias = float
 
@@ -36,6 +36,29 @@ class Move:
 
 
 @dataclass(frozen=True)
+class Limits:
+    """How fast the speed of a robot rises and falls: metres per second squared, or in turns radians. Infinite: at
+    once."""
+
+    rise: float = math.inf
+    fall: float = math.inf
+    turn: float = math.inf
+
+    def of(self, action: Action) -> tuple[float, float]:
+        """Rise and fall."""
+        return (self.turn, self.turn) if action["type"] == "rotate" else (self.rise, self.fall)
+
+
+def limits_of(request: PlanRequest, robot: Robot) -> Limits:
+    """The limits of a robot of a request."""
+    defaults = request.get("robot_defaults", {})
+    rise = robot.get("linear_acceleration", defaults.get("linear_acceleration"))
+    fall = robot.get("linear_deceleration", defaults.get("linear_deceleration", rise))
+    turn = robot.get("angular_acceleration", defaults.get("angular_acceleration"))
+    return Limits(*(math.inf if limit is None else limit for limit in (rise, fall, turn)))
+
+
+@dataclass(frozen=True)
 class _Purpose:
     """What a wait is for. The rest of it gives way to others."""
 
@@ -48,9 +71,10 @@ class Course:
     """The actions of one robot."""
 
     def __init__(self, start: Pose, actions: Sequence[Action], goals: Sequence[Goal] = (),
-                 wait_before_move: float = 0.0) -> None:
-        """`goals`: those of the request, which the waits of the plan number."""
+                 wait_before_move: float = 0.0, limits: Limits = Limits()) -> None:
+        """`goals`: those of the request, which the waits of the plan number. `limits`: of the robot."""
         self.start = start
+        self.limits = limits
         self.actions = actions
         self.end = float(len(actions))
         self._amounts = [_amount(action) for action in actions]
@@ -103,8 +127,10 @@ class Course:
         return left
 
     def planned_speed(self, index: int) -> float:
-        """Metres or radians per second; 0 of a wait."""
+        """The greatest, metres or radians per second; 0 of a wait."""
         action = self.actions[index]
+        if "profile" in action:
+            return action["profile"]["cruise"]
         duration = action["t_end"] - action["t_start"]
         return self._amounts[index] / duration if action["type"] != "wait" and duration > 0.0 else 0.0
 
@@ -131,6 +157,13 @@ class Course:
             index = following
             room += (min(limit, index + 1) - index) * self._amounts[index]
         return room
+
+    def room_at_speed(self, place: Place, deceleration: float) -> float:
+        """Metres from a place to where the robot would stand if it braked all the time, and slows down for the next
+        action as planned; infinite if that begins at rest."""
+        index = self.index(place)
+        end = self.actions[index].get("profile", {"end": 0.0})["end"]
+        return (index + 1 - place) * self._amounts[index] + end * end / (2.0 * deceleration) if end > 0.0 else math.inf
 
     def located(self, pose: Pose, place: Place, limit: Place, near: float) -> Place:
         """Where a robot is by its measured pose: from the place where it has been on. It has done an action of which
@@ -198,7 +231,7 @@ class Course:
         """Where the plan has the robot at a time, seconds."""
         for index, action in enumerate(self.actions):
             if t < action["t_end"]:
-                return index + max(0.0, (t - action["t_start"]) / (action["t_end"] - action["t_start"]))
+                return index + self._share_after(index, max(0.0, t - action["t_start"]))
         return self.end
 
     def time_at(self, place: Place) -> float:
@@ -209,7 +242,42 @@ class Course:
         action = self.actions[index]
         if action["type"] != "translate":
             return self.time_at(index + 1.0) if index + 1 < len(self.actions) else math.inf
-        return action["t_start"] + (place - index) * (action["t_end"] - action["t_start"])
+        return action["t_start"] + self._seconds_until(index, place - index)
+
+    def _share_after(self, index: int, seconds: float) -> float:
+        """How much of an action is done, as planned, after so many seconds of it."""
+        action, amount = self.actions[index], self._amounts[index]
+        duration = action["t_end"] - action["t_start"]
+        if "profile" not in action or amount <= 0.0:
+            return seconds / duration
+        profile = action["profile"]
+        rise, fall = self.limits.of(action)
+        rises = min(seconds, (profile["cruise"] - profile["start"]) / rise)
+        falls = max(0.0, seconds - (duration - (profile["cruise"] - profile["end"]) / fall))
+        covered = profile["cruise"] * max(0.0, seconds - rises - falls)
+        if rises > 0.0:
+            covered += rises * (profile["start"] + rise * rises / 2.0)
+        if falls > 0.0:
+            covered += falls * (profile["cruise"] - fall * falls / 2.0)
+        return min(1.0, max(0.0, covered / amount))
+
+    def _seconds_until(self, index: int, share: float) -> float:
+        """The inverse: after how many seconds so much of an action is done, as planned."""
+        action = self.actions[index]
+        duration = action["t_end"] - action["t_start"]
+        if "profile" not in action:
+            return share * duration
+        profile, covered = action["profile"], share * self._amounts[index]
+        rise, fall = self.limits.of(action)
+        start, cruise, end = profile["start"], profile["cruise"], profile["end"]
+        rises, falls = (cruise - start) / rise, (cruise - end) / fall
+        rising, before_fall = (start + cruise) / 2.0 * rises, self._amounts[index] - (cruise + end) / 2.0 * falls
+        if covered < rising:
+            return 2.0 * covered / (start + math.sqrt(start * start + 2.0 * rise * covered))
+        if covered <= before_fall or falls <= 0.0:
+            return min(duration, rises + (covered - rising) / cruise)
+        left = max(0.0, cruise * cruise - 2.0 * fall * (covered - before_fall))
+        return min(duration, duration - falls + 2.0 * (covered - before_fall) / (cruise + math.sqrt(left)))
 
     def _share(self, index: int, pose: Pose) -> float:
         """How much of an action a robot in this pose has done."""

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
-from fleetplan.course import Course, Place, whole
+from fleetplan.course import Course, Place, limits_of, whole
 from fleetplan.types import (Action, ActionProgress, AdvanceAnswer, Goal, MeasuredPose, PlanAnswer, PlanRequest,
                              Pose, Robot, RobotState, TightPair)
 
@@ -106,7 +106,8 @@ class Executor:
         `early`: robots may be ahead of the plan, and skip waits that only let others pass. Without, no action begins
         before its time, which moving obstacles need.
         `deceleration`: metres per second squared, of all robots or by robot, and `reaction`: seconds from a report to
-        the execution of the instruction that follows. With these, the speed is what allows to stop in time.
+        the execution of the instruction that follows. With these, the speed is what allows to stop in time. By default,
+        robots brake as the request says (`linear_deceleration`), if it does.
         `near`: a robot that has less than so many metres (radians) left of an action has done it, and one that is so
         near to a gate is there. The execution margin should be at least as much."""
         self._early, self._deceleration, self._reaction, self._near = early, deceleration, reaction, near
@@ -332,7 +333,7 @@ class Executor:
             return self._stand(robot, place, None, begins - now)
         room = course.room(place, limit)
         return Instruction(robot, self.plan, index, action["type"], course.pose(min(limit, index + 1.0)),
-                           self._speed(robot, action, course.planned_speed(index), room), room,
+                           self._speed(robot, place, room), room,
                            action.get("reverse", False), waits_for=self._waits_for(robot) if limit < index + 1 else ())
 
     def _stand(self, robot: str, place: Place, goal: int | None = None, seconds: float | None = None,
@@ -350,13 +351,17 @@ class Executor:
         others |= {clock.other for clock in progress.clocks if self._on_time(progress, clock) <= limit}
         return tuple(sorted(others))
 
-    def _speed(self, robot: str, action: Action, planned: float, room: float) -> float:
-        """At most as planned, and so that the robot can stop within the room."""
-        of_robots, report = self._deceleration, self._robots[robot].report
-        deceleration = of_robots.get(robot) if isinstance(of_robots, Mapping) else of_robots
-        if deceleration is None or action["type"] != "translate":
+    def _speed(self, robot: str, place: Place, room: float) -> float:
+        """At most as planned, and so that the robot can stop within the room, and is as slow as planned when the next
+        action begins."""
+        of_robots, report, course = self._deceleration, self._robots[robot].report, self._robots[robot].course
+        index = course.index(place + _REACHED)
+        planned, given = course.planned_speed(index), of_robots.get(robot) if isinstance(of_robots, Mapping) else of_robots
+        deceleration = course.limits.fall if given is None else given
+        if math.isinf(deceleration) or course.actions[index]["type"] != "translate":
             return planned
         speed = abs(report.speed) if report is not None and report.speed is not None else 0.0
+        room = min(room, course.room_at_speed(place, deceleration))
         return min(planned, _braking_speed(room, speed, deceleration, self._reaction))
 
     def _state(self, robot: str, progress: _Progress, now: float) -> RobotState:
@@ -392,7 +397,8 @@ def _execution_margin(request: PlanRequest, robot: Robot) -> float:
 def _course(request: PlanRequest, robot: Robot, actions: list[Action]) -> Course:
     start = robot["start"]
     pose: Pose = {"x": start["x"], "y": start["y"], "theta": start.get("theta", 0.0)}
-    return Course(pose, actions, goals_of(robot), request.get("options", {}).get("wait_before_move", 0.0))
+    return Course(pose, actions, goals_of(robot), request.get("options", {}).get("wait_before_move", 0.0),
+                  limits_of(request, robot))
 
 
 def _braking_speed(room: float, speed: float, deceleration: float, reaction: float) -> float:

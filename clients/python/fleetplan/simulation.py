@@ -5,7 +5,7 @@ import random
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from fleetplan.course import turned
+from fleetplan.course import Limits, limits_of, turned
 from fleetplan.executor import Instruction, Report
 from fleetplan.types import PlanRequest, Pose
 
@@ -25,6 +25,9 @@ class Leg:
 @dataclass
 class _Robot:
     pose: Pose
+    limits: Limits
+    own: bool  # whether the limits are those of the request: it brakes by itself within the room of its instruction
+    room: float = 0.0  # metres that are left of it
     speed: float = 0.0  # metres per second
     stands_until: float = 0.0
     instruction: Instruction | None = None
@@ -38,13 +41,16 @@ class SimulatedFleet:
                  noise: float = 0.0) -> None:
         """`speed`: the share of the instructed speed that robots make, drawn anew between these for each drive.
         Robots stop at random moments, for `mean_stop` seconds on average. `acceleration`: metres per second squared, to
-        drive off and to brake; by default, they need no time for that. `noise`: of measured poses, metres."""
+        drive off and to brake; by default as the request says, or at once. `noise`: of measured poses, metres."""
         self.now = 0.0
         self._random = random.Random(seed)
         self._speed, self._stops, self._mean_stop = speed, stops_per_hour / 3600.0, mean_stop
-        self._acceleration, self._noise = acceleration, noise
-        self._robots = {robot["id"]: _Robot({"x": robot["start"]["x"], "y": robot["start"]["y"],
-                                             "theta": robot["start"].get("theta", 0.0)}) for robot in request["robots"]}
+        self._noise = noise
+        self._robots: dict[str, _Robot] = {}
+        for robot in request["robots"]:
+            pose: Pose = {"x": robot["start"]["x"], "y": robot["start"]["y"], "theta": robot["start"].get("theta", 0.0)}
+            limits = limits_of(request, robot) if acceleration is None else Limits(acceleration, acceleration)
+            self._robots[robot["id"]] = _Robot(pose, limits, acceleration is None)
         self.legs: dict[str, list[Leg]] = {robot: [] for robot in self._robots}  # all that they have done
 
     def clock(self) -> float:
@@ -60,7 +66,8 @@ class SimulatedFleet:
 
     def obey(self, instructions: Iterable[Instruction]) -> None:
         for instruction in instructions:
-            self._robots[instruction.robot].instruction = instruction
+            robot = self._robots[instruction.robot]
+            robot.instruction, robot.room = instruction, instruction.room
 
     def stop(self, robot: str, seconds: float) -> None:
         """The robot breaks down: it stands for so long, whatever it is instructed."""
@@ -81,7 +88,7 @@ class SimulatedFleet:
         now, instruction = self.now, robot.instruction
         assert instruction is not None
         while now < end:
-            step = end - now if self._acceleration is None else min(_STEP, end - now)
+            step = end - now if math.isinf(robot.limits.rise + robot.limits.fall) else min(_STEP, end - now)
             if instruction.type == "rotate" and robot.speed == 0.0 and now >= robot.stands_until:
                 begin = robot.pose
                 robot.pose = _turned_to(begin, instruction.target, instruction.speed * factor * step)
@@ -102,9 +109,12 @@ class SimulatedFleet:
         if goes:
             x, y = away_x / distance, away_y / distance
         wanted = instruction.speed * factor if goes else 0.0
-        change = math.inf if self._acceleration is None else self._acceleration * step
-        robot.speed = min(robot.speed + change, max(robot.speed - change, wanted))
+        rise, change = robot.limits.rise * step, robot.limits.fall * step
+        if robot.own and not math.isinf(change):
+            wanted = min(wanted, math.sqrt(change * change / 4.0 + 2.0 * robot.limits.fall * robot.room) - change / 2.0)
+        robot.speed = min(robot.speed + rise, max(robot.speed - change, wanted))
         length, duration = robot.speed * step, step
+        robot.room = max(0.0, robot.room - length)
         robot.pose = {"x": begin["x"] + length * x, "y": begin["y"] + length * y, "theta": begin["theta"]}
         if goes and length >= distance and robot.speed <= change:
             duration = distance / robot.speed
