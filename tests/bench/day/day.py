@@ -26,7 +26,8 @@ from watch import Watch  # noqa: E402
 
 STEP = 0.1  # seconds between instructions
 SPEED = 0.8, 1.0  # shares of the instructed speed that robots make
-BRAKES = 0.8  # metres per second squared
+ACCELERATION = 1.0  # metres per second squared: of robots, also when they brake
+BRAKES = 0.8  # metres per second squared: with which they are told to brake
 COMMIT = 2.4  # seconds: that of FleetLoop for its time budget and these brakes, whatever the budget is here
 STARVED = 300.0  # seconds
 MOST_TO_FINISH = 900.0  # seconds after the last task was offered
@@ -35,14 +36,18 @@ MOST_TO_FINISH = 900.0  # seconds after the last task was offered
 class Day:
     """Robots, tasks and what happens; see `run`."""
 
-    def __init__(self, client, robots=50, per_hour=400.0, seed=1, rates=Rates(), latency=0.4, options=None):
+    def __init__(self, client, robots=50, per_hour=400.0, seed=1, rates=Rates(), latency=0.4, options=None,
+                 profiles=False):
+        """`profiles`: plans know how robots accelerate; otherwise they are at constant speeds."""
         warehouse = make_warehouse()
         request = make_request(warehouse, robots, seed)
         request["options"] = options or {}
+        if profiles:
+            request["robot_defaults"] = {"linear_acceleration": ACCELERATION, "linear_deceleration": BRAKES}
         self.client, self.request = client, request
         self.radii = {robot["id"]: robot["radius"] for robot in request["robots"]}
         self.fleet = SimulatedFleet(request, seed=seed, speed=SPEED, stops_per_hour=10.0, mean_stop=5.0,
-                                    acceleration=1.0, noise=0.003)
+                                    acceleration=ACCELERATION, noise=0.003)
         self.tasks = Tasks(warehouse, request, per_hour, seed)
         self.disturbances = Disturbances(rates, seed)
         self.watch = Watch(request)
@@ -147,11 +152,13 @@ def main(program, words):
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--latency", type=float, default=0.4, help="seconds from a request to its plan; default 0.4")
     parser.add_argument("--options", type=json.loads, default={}, metavar="JSON", help="more options of the requests")
+    parser.add_argument("--profiles", action="store_true", help="plan with the acceleration of the robots; by default at "
+                        "constant speeds, to which --options '{\"wait_before_move\": 0.5}' adds time to start")
     parser.add_argument("--output", metavar="FOLDER", default=".", help="folder for day.json")
     arguments = parser.parse_args(words)
     with service(program) as url:
         day = Day(Client(url), arguments.robots, arguments.tasks, arguments.seed, latency=arguments.latency,
-                  options=arguments.options)
+                  options=arguments.options, profiles=arguments.profiles)
         while day.fleet.now < arguments.seconds - STEP / 2.0:
             day.run(min(60.0, arguments.seconds - day.fleet.now))
             print(f"{day.fleet.now:.0f} s: {len(day.tasks.done)} of {day.tasks.offered} tasks done, {dict(day.rounds)}, "
