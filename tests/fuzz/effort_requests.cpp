@@ -1,8 +1,10 @@
 #include "tests/fuzz/effort_requests.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -204,6 +206,13 @@ struct ToAndFro {
   int legs = 0;
 };
 
+/// Returns the duration of a way at 1 m/s, and its profile if acceleration is limited.
+std::pair<double, Json> timed(double length, const std::optional<double>& acceleration) {
+  if (!acceleration) return {1.01 * length, nullptr};
+  const double cruise = std::min(1.0, std::sqrt(*acceleration * length));
+  return {length / cruise + cruise / *acceleration, {{"start", 0.0}, {"cruise", cruise}, {"end", 0.0}}};
+}
+
 ToAndFro to_and_fro(const Extent& extent, double pitch, Choices& choices) {
   ToAndFro fleet;
   const int most_robots = static_cast<int>(std::min(300.0, extent.height / pitch));
@@ -211,6 +220,9 @@ ToAndFro to_and_fro(const Extent& extent, double pitch, Choices& choices) {
   fleet.legs = 1 + choices.up_to(std::min(3000, 60'000 / robots));
   const double length = std::max(0.1, extent.width - pitch) * choices.one_of(std::array{1.0, 0.3, 0.001});
   const bool waits = choices.yes();
+  std::optional<double> acceleration;
+  if (choices.yes()) acceleration = choices.one_of(std::array{1e-3, 0.5, 1e6});
+  const auto [duration, profile] = timed(length, acceleration);
   for (int k = 0; k < robots; ++k) {
     const std::string id = name_of('r', k);
     const double y = pitch * (k + 0.5);
@@ -220,13 +232,14 @@ ToAndFro to_and_fro(const Extent& extent, double pitch, Choices& choices) {
     double now = 0.0;
     for (int leg = 0; leg < fleet.legs; ++leg) {
       const auto from = static_cast<std::size_t>(leg % 2);
-      const double end = now + 1.01 * length;
+      const double end = now + duration;
       actions.push_back({{"type", "translate"},
                          {"t_start", now},
                          {"t_end", end},
                          {"from", ends[from]},
                          {"to", ends[1 - from]},
                          {"reverse", from == 1}});
+      if (acceleration) actions.back()["profile"] = profile;
       now = end;
       if (!waits) continue;
       actions.push_back({{"type", "wait"},
@@ -237,6 +250,7 @@ ToAndFro to_and_fro(const Extent& extent, double pitch, Choices& choices) {
       now += 0.5;
     }
     fleet.robots.push_back({{"id", id}, {"start", ends[0]}, {"may_reverse", true}});
+    if (acceleration) fleet.robots.back()["linear_acceleration"] = *acceleration;
     fleet.plans.push_back({{"robot", id}, {"cost", now}, {"actions", std::move(actions)}});
   }
   return fleet;
