@@ -90,20 +90,22 @@ double Drive::fraction(std::size_t part, double place) const {
 
 void Drive::head_for(double place) {
   pieces_.clear();
-  std::vector<LimitedPart> ahead;
+  next_ = 0;
+  std::vector<LimitedPart> limited;
   std::vector<std::size_t> numbers;
   const auto after = std::upper_bound(begins_.begin() + 1, begins_.end(), at_);
+  auto part = static_cast<std::size_t>(after - begins_.begin()) - 1;
   // Bounded: the actions of the drive.
-  for (auto part = static_cast<std::size_t>(after - begins_.begin()) - 1; part < parts_.size(); ++part) {
+  for (; part < parts_.size() && begins_[part] < place; ++part) {
     const double length = std::min(place, begins_[part + 1]) - std::max(at_, begins_[part]);
     if (length <= 0.0) continue;
-    ahead.push_back({length, parts_[part].limit, parts_[part].end_limit});
+    limited.push_back({length, parts_[part].limit, parts_[part].end_limit});
     numbers.push_back(part);
   }
-  if (ahead.empty()) return;
-  const std::vector<SpeedProfile> profiles = fastest_profiles(ahead, inertia_, speed_);
-  pieces_.reserve(3 * ahead.size());
-  for (std::size_t k = 0; k < ahead.size(); ++k) {
+  if (limited.empty()) return;
+  const std::vector<SpeedProfile> profiles = fastest_profiles(limited, inertia_, speed_);
+  pieces_.reserve(3 * limited.size());
+  for (std::size_t k = 0; k < limited.size(); ++k) {
     add_pieces(numbers[k], profiles[k], std::min(place, begins_[numbers[k] + 1]));
   }
 }
@@ -132,18 +134,18 @@ void Drive::add_piece(std::size_t part, double seconds, double to, double start,
 }
 
 double Drive::time_at(double place) const {
-  const auto piece = std::lower_bound(pieces_.begin(), pieces_.end(), place,
+  const auto piece = std::lower_bound(ahead(), pieces_.cend(), place,
                                       [](const Piece& one, double sought) { return one.to < sought; });
-  if (piece != pieces_.end()) return piece->time_at(place);
-  return pieces_.empty() ? t_ : pieces_.back().t_end;
+  if (piece != pieces_.cend()) return piece->time_at(place);
+  return stands() ? t_ : pieces_.back().t_end;
 }
 
 std::vector<DrivenPiece> Drive::drive_to(double place) { return take(time_at(place), place); }
 
 std::vector<DrivenPiece> Drive::drive_until(double t) {
-  const auto piece =
-      std::find_if(pieces_.begin(), pieces_.end(), [&](const Piece& one) { return one.t_end >= t; });
-  if (piece == pieces_.end()) return drive_to(heading_for());
+  const auto piece = std::lower_bound(ahead(), pieces_.cend(), t,
+                                      [](const Piece& one, double time) { return one.t_end < time; });
+  if (piece == pieces_.cend()) return drive_to(heading_for());
   if (t <= piece->t_start + kSameMoment) return take(piece->t_start, piece->from);
   if (t >= piece->t_end - kSameMoment) return take(piece->t_end, piece->to);
   const double elapsed = (t - piece->t_start) / (piece->t_end - piece->t_start);
@@ -152,15 +154,13 @@ std::vector<DrivenPiece> Drive::drive_until(double t) {
 
 std::vector<DrivenPiece> Drive::take(double t, double place) {
   std::vector<DrivenPiece> taken;
-  std::size_t whole = 0;
-  // Bounded: the pieces of a drive, each taken once.
-  while (whole < pieces_.size() && pieces_[whole].to <= place) {
-    speed_ = pieces_[whole].end;
-    taken.push_back(driven(pieces_[whole++]));
+  // Bounded: the pieces that are ahead, each taken once.
+  while (!stands() && pieces_[next_].to <= place) {
+    speed_ = pieces_[next_].end;
+    taken.push_back(driven(pieces_[next_++]));
   }
-  pieces_.erase(pieces_.begin(), pieces_.begin() + static_cast<std::ptrdiff_t>(whole));
-  if (!pieces_.empty() && pieces_.front().from < place) {
-    Piece& under_way = pieces_.front();
+  if (!stands() && pieces_[next_].from < place) {
+    Piece& under_way = pieces_[next_];
     taken.push_back(driven(under_way.until(t, place)));
     under_way = under_way.since(t, place);
     speed_ = under_way.start;

@@ -50,13 +50,13 @@ class Drive {
   double now() const { return t_; }
   double at() const { return at_; }
   double speed() const { return speed_; }
-  bool stands() const { return pieces_.empty(); }
-  bool slows_down() const { return !pieces_.empty() && pieces_.front().end < pieces_.front().start; }
+  bool stands() const { return next_ == pieces_.size(); }
+  bool slows_down() const { return !stands() && pieces_[next_].end < pieces_[next_].start; }
 
   /// Plans the way from where the robot is to rest at a place ahead.
   void head_for(double place);
   /// The place that the robot heads for; where it is if it stands.
-  double heading_for() const { return pieces_.empty() ? at_ : pieces_.back().to; }
+  double heading_for() const { return stands() ? at_ : pieces_.back().to; }
   /// Returns when the robot comes to a place on its way.
   double time_at(double place) const;
   /// Drives on to a place on its way, or until a time. Returns what it drives.
@@ -85,6 +85,9 @@ class Drive {
     Piece since(double t, double place) const;
   };
 
+  std::vector<Piece>::const_iterator ahead() const {
+    return pieces_.begin() + static_cast<std::ptrdiff_t>(next_);
+  }
   void add_pieces(std::size_t part, const SpeedProfile& profile, double to);
   void add_piece(std::size_t part, double seconds, double to, double start, double end);
   std::vector<DrivenPiece> take(double t, double place);
@@ -98,7 +101,8 @@ class Drive {
   double t_;
   double at_ = 0.0;
   double speed_;
-  std::vector<Piece> pieces_;  // ahead
+  std::vector<Piece> pieces_;  // of the way that it heads for
+  std::size_t next_ = 0;       // the first of them that is ahead
 };
 
 }  // namespace fleetplan::core

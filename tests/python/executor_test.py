@@ -198,11 +198,11 @@ class ByHand(unittest.TestCase):
         request["robot_defaults"] = {"linear_acceleration": 1.0, "linear_deceleration": 0.5}
         executor = Executor(request, answer, 0.0)
         self.assertEqual(self.instruction(executor).speed, 1.0)
-        executor.report(Report("a", pose(5.5), speed=1.0), 5.0)
+        executor.report(Report("a", pose(5.5), speed=0.8), 5.0)
         slows_down = self.instruction(executor, now=5.0)
         self.assertEqual((slows_down.target, slows_down.room), (pose(6.0), 4.5))
         self.assertAlmostEqual(slows_down.speed, math.sqrt(0.5 ** 2 + 2 * 0.5 * 0.5))
-        executor.report(Report("a", pose(9.9), speed=0.4), 15.0)
+        executor.report(Report("a", pose(9.9), speed=0.3), 15.0)
         self.assertAlmostEqual(self.instruction(executor, now=15.0).speed, math.sqrt(2 * 0.5 * 0.1))
         light = Executor(request, answer, 0.0, deceleration={"a": 0.01})
         self.assertLess(self.instruction(light).speed, 0.5)
