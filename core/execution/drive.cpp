@@ -15,7 +15,7 @@ double extent(const Action& action) {
                                              : (action.to.position - action.from.position).norm();
 }
 
-/// Times that differ by less are the same, seconds.
+/// Times that differ by less are the same, seconds: no piece is divided into shorter ones.
 constexpr double kSameMoment = 1e-8;
 
 /// Changes of speed, and cruises, that are shorter, as a share of their part, are rounding.
@@ -146,27 +146,28 @@ std::vector<DrivenPiece> Drive::drive_until(double t) {
   const auto piece = std::lower_bound(ahead(), pieces_.cend(), t,
                                       [](const Piece& one, double time) { return one.t_end < time; });
   if (piece == pieces_.cend()) return drive_to(heading_for());
-  if (t <= piece->t_start + kSameMoment) return take(piece->t_start, piece->from);
-  if (t >= piece->t_end - kSameMoment) return take(piece->t_end, piece->to);
+  if (t <= piece->t_start) return take(t, piece->from);
   const double elapsed = (t - piece->t_start) / (piece->t_end - piece->t_start);
   return take(t, piece->from + covered_share(elapsed, piece->ramp()) * (piece->to - piece->from));
 }
 
 std::vector<DrivenPiece> Drive::take(double t, double place) {
   std::vector<DrivenPiece> taken;
+  double reached = at_;
   // Bounded: the pieces that are ahead, each taken once.
-  while (!stands() && pieces_[next_].to <= place) {
+  while (!stands() && (pieces_[next_].to <= place || pieces_[next_].t_end <= t + kSameMoment)) {
     speed_ = pieces_[next_].end;
+    reached = pieces_[next_].to;
     taken.push_back(driven(pieces_[next_++]));
   }
-  if (!stands() && pieces_[next_].from < place) {
+  if (!stands() && pieces_[next_].t_start < t - kSameMoment) {
     Piece& under_way = pieces_[next_];
     taken.push_back(driven(under_way.until(t, place)));
     under_way = under_way.since(t, place);
     speed_ = under_way.start;
   }
-  at_ = std::max(at_, place);
-  t_ = taken.empty() ? t : std::max(t, taken.back().t_end);
+  at_ = std::max({at_, place, reached});
+  t_ = std::max({t_, t, taken.empty() ? t : taken.back().t_end});
   return taken;
 }
 

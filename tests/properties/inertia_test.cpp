@@ -209,7 +209,7 @@ TEST_P(FleetWithInertia, IsExecutedByDependenciesWithinItsLimits) {
   }
   std::vector<double> radii;
   for (const Robot& robot : problem.robots()) radii.push_back(robot.radius);
-  const SimulatedFleet fleet{problem.map().grid(), problem.robots(), radii, execution};
+  const SimulatedFleet fleet{problem.grid(), problem.robots(), radii, execution};
   const SimulationSettings settings{late_robots(), 1, static_cast<std::uint64_t>(seed)};
 
   const auto trace = trace_run(fleet, settings, 0, 1'000'000, StopCondition::never());

@@ -146,6 +146,17 @@ TEST(AcceleratedExecution, GoesOnFromTheSpeedThatItHasWhenAGateOpens) {
   EXPECT_NEAR(trace[1].profile->cruise, 2.0, 1e-6);
 }
 
+TEST(AcceleratedExecution, HasNoSliversWhereOthersAreTold) {
+  HeavyPair scene;
+  // Robot 1 waits for robot 0 to be where that begins to cruise, and where it begins to brake.
+  for (const double place : {2.0, 14.0, 2.0 + 1e-15, 14.0 - 4e-15}) {
+    const auto executed =
+        scene.execute(ExecutionPolicy::dependencies, {{{1, 0, 0.9}, {0, 0, place / 18}, 0.0}});
+    EXPECT_EQ(scene.trace(0, executed[0]).size(), 1U) << place;
+    EXPECT_NEAR(executed[0].end(), 12.0, 1e-9);
+  }
+}
+
 TEST(AcceleratedExecution, TwoThatBrakeForEachOtherGoOnInTheOrderOfTime) {
   HeavyPair scene;
   // Robot 1 brakes for 9 m until robot 0 is at 8.5 m, where it comes braking itself: it waits at 9 m until
