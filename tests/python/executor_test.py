@@ -207,6 +207,13 @@ class ByHand(unittest.TestCase):
         light = Executor(request, answer, 0.0, deceleration={"a": 0.01})
         self.assertLess(self.instruction(light).speed, 0.5)
 
+    def test_measured_speeds_are_passed_on(self):
+        executor = self.executor({"a": actions(("translate", 2.0)), "b": []})
+        for robot, x in (("a", 0.5), ("b", 0.0)):
+            executor.report(Report(robot, pose(x), speed=0.25), 1.0)
+        self.assertEqual([state["speed"] for state in executor.states(1.0)], [0.25])
+        self.assertEqual(executor.poses(1.0), [{"robot": "b", "speed": 0.25, **pose(0.0)}])
+
     def test_robots_may_brake_differently(self):
         plans = {robot: actions(("translate", 0.1)) for robot in "ab"}
         executor = self.executor(plans, deceleration={"a": 0.1})

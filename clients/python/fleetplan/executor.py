@@ -174,9 +174,14 @@ class Executor:
 
     def poses(self, now: float) -> list[MeasuredPose]:
         """Where robots without actions have just been measured; they have no state."""
-        return [{"robot": robot, "x": pose["x"], "y": pose["y"], "theta": pose["theta"]}
-                for robot, progress in self._robots.items()
-                if not progress.course.actions and (pose := progress.measured(now)) is not None]
+        poses: list[MeasuredPose] = []
+        for robot, progress in self._robots.items():
+            if not progress.course.actions and (pose := progress.measured(now)) is not None:
+                measured: MeasuredPose = {"robot": robot, "x": pose["x"], "y": pose["y"], "theta": pose["theta"]}
+                if progress.report is not None and progress.report.speed is not None:
+                    measured["speed"] = progress.report.speed
+                poses.append(measured)
+        return poses
 
     # ---------------------------------------------------------------- from plan to plan
 
