@@ -66,12 +66,13 @@ constexpr std::chrono::milliseconds kMostForPrevious{500};
 /// The most time for finding unavoidable collisions. Without them, no plan can be checked.
 constexpr std::chrono::milliseconds kMostForUnavoidable{150};
 
-/// The time for finding out why robots are stuck, also after the budget is spent.
-constexpr std::chrono::milliseconds kTimeForStuck{30};
+/// The time for undoing vain moves after improvement, and for finding out why robots are stuck: also after
+/// the budget is spent.
+constexpr std::chrono::milliseconds kTimeForTheEnd{30};
 
 StopCondition briefly(const StopCondition& stop) {
   using Clock = StopCondition::Clock;
-  return stop.deadline() == Clock::time_point::max() ? stop : stop.until(Clock::now() + kTimeForStuck);
+  return stop.deadline() == Clock::time_point::max() ? stop : stop.until(Clock::now() + kTimeForTheEnd);
 }
 
 StopCondition beyond_budget(const StopCondition& stop, std::chrono::milliseconds most) {
@@ -272,7 +273,7 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
     if (!stop.is_over()) state.resume();
     lns = large_neighbourhood_search(state, changeable_robots(state, movers), bounds, random, executor, stop,
                                      before_round);
-    cut_off = undo_vain_moves(state, stop) || cut_off;
+    cut_off = undo_vain_moves(state, briefly(stop)) || cut_off;
   }
 
   Plan plan = with_stuck_explained(state, current_plan(lns), briefly(stop));

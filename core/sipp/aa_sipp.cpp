@@ -178,8 +178,10 @@ void Search::label_start() {
   int interval = state_.places[start].first_interval;
   while (interval < end && state_.intervals[interval].end < t_begin) ++interval;
   if (interval == end || !state_.intervals[interval].contains(t_begin)) return;
-  // A robot that may stay where it begins for good rests there at once, whatever the start delay.
-  const double t = goals_.is_end(start, interval) ? t_begin : t_begin + limits_.start_delay;
+  // A robot that serves all where it begins and may stay there for good does so at once, whatever the delay.
+  const bool stays = goals_.is_end(start, interval) ||
+                     (space_.all_goals_at_start() && state_.intervals[interval].end == kForever);
+  const double t = stays ? t_begin : t_begin + limits_.start_delay;
   if (!state_.intervals[interval].contains(t)) return;
   const double heading = heading_at_start(start);
   const double served = space_.itinerary().service_done;

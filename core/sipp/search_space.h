@@ -240,6 +240,8 @@ class SearchSpace {
   Footprint footprint(std::size_t stage) const {
     return {robot_, instance_.radius(robot_, stage), stage > goals_at_start_};
   }
+  /// Whether the robot need not move for any of its goals.
+  bool all_goals_at_start() const { return goals_at_start_ == goal_count(); }
   /// The first move needs no rotation.
   bool any_heading_at_start() const { return any_heading_at_start_; }
   /// The committed actions end at rest in the pose of the first goal.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -55,8 +56,11 @@ bool may_stay(const Problem& problem, const PlanOptions& options, const Plan& pl
 TEST(Yielding, EveryPlanIsValidAndNobodyMovesForNothing) {
   int made_way = 0;
   int idle = 0;
-  int vain = 0;  // seldom: others that were planned later may have made the move needless
-  for (std::uint64_t seed = 0; seed < 250; ++seed) {
+  std::vector<std::uint64_t> seeds(250);
+  std::iota(seeds.begin(), seeds.end(), 0);
+  seeds.push_back(1298);  // a robot that may stay where it is served, in spite of a start delay
+  seeds.push_back(1488);  // a robot makes way for one that makes way for nothing
+  for (const std::uint64_t seed : seeds) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     Dice dice(seed);
     const auto problem = yielding_problem(dice);
@@ -73,11 +77,10 @@ TEST(Yielding, EveryPlanIsValidAndNobodyMovesForNothing) {
       ++idle;
       if (one.actions.empty()) continue;
       ++made_way;
-      if (may_stay(*problem, options, plan, k)) ++vain;
+      EXPECT_FALSE(may_stay(*problem, options, plan, k)) << "robot " << one.robot;
     }
   }
   EXPECT_GT(made_way, 10);
-  EXPECT_LE(20 * vain, made_way);
   EXPECT_GT(idle, 10 * made_way / 4);
 }
 
