@@ -20,6 +20,7 @@
 #include "api/response/write_response.h"
 #include "core/geometry/angle.h"
 #include "core/model/drive_zones.h"
+#include "core/model/itinerary.h"
 
 namespace fleetplan::api {
 
@@ -177,7 +178,7 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
   read.fleet = parse_fleet(read.request, limits, [&](const ParsedOptions& options) {
     stop.set_budget(effective_budget(options, limits));
   });
-  const Fleet& fleet = read.fleet;
+  Fleet& fleet = read.fleet;
   read.moment.at = root.require("at").number(kDuration).value_or(0.0);
   read.moment.commit = root.find("commit").number(kDuration);
   if (const auto tolerance = root.find("pose_tolerance").number(kLengthOrZero)) {
@@ -208,6 +209,12 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
     if (!read.executions[index].goals) read.goal_texts[index] = std::move(robot.goal_texts);
     read.executions[index].stop_distance = robot.stop_distance;
     read.executions[index].stays_when_served = robot.idle == Idle::stay;
+    read.returns.push_back(robot.idle == Idle::come_back);
+    for (std::size_t k = 0; k < robot.open.size(); ++k) {
+      core::choose(robot.robot, robot.open[k], fleet.robots[index].open[k].chosen);
+      robot.open[k].is_settled = fleet.robots[index].open[k].is_settled;
+    }
+    read.open.push_back(std::move(robot.open));
     // A robot that is off its path turns back as slowly as it has to anywhere.
     const core::DriveZones zones(fleet.zones, index, robot.robot);
     robot.robot.angular_speed = zones.least_angular_speed();
@@ -250,10 +257,15 @@ void write_start(JsonWriter& json, const core::Robot& robot) {
   json.end_object();
 }
 
-/// Without a service, nothing is left of its actions.
-void write_goal(JsonWriter& json, const core::Goal& goal, const GoalTexts& texts) {
-  json.begin_object().member("x", goal.position.x()).member("y", goal.position.y());
-  if (goal.theta) json.member("theta", *goal.theta);
+/// Without a service, nothing is left of its actions. `is_open`: it has all poses that were given.
+void write_goal(JsonWriter& json, const core::Goal& goal, const GoalTexts& texts, bool is_open) {
+  json.begin_object();
+  if (is_open) {
+    json.key("any_of").json(texts.any_of);
+  } else {
+    json.member("x", goal.position.x()).member("y", goal.position.y());
+    if (goal.theta) json.member("theta", *goal.theta);
+  }
   if (goal.service > 0.0) json.member("service", goal.service);
   if (goal.not_before > 0.0) json.member("not_before", goal.not_before);
   if (goal.due) json.member("due", *goal.due);
@@ -286,7 +298,7 @@ void write_actions(JsonWriter& json, std::string_view key, const std::vector<cor
 class TextsOfGoals {
  public:
   TextsOfGoals(const AdvanceRequest& request, std::size_t index, const core::Robot& left)
-      : all_(request.goal_texts[index]) {
+      : all_(request.goal_texts[index]), open_(request.open[index]) {
     const Execution& execution = request.executions[index];
     const std::size_t had = execution.goals ? execution.goals->size() : request.robots[index].goal_count();
     visited_ = had - left.goal_count();
@@ -296,6 +308,14 @@ class TextsOfGoals {
   /// Whether the robot has got other goals.
   bool are_other() const { return are_other_; }
 
+  /// Whether the plan serves the goal at one of several poses.
+  bool is_settled(std::size_t goal) const {
+    const auto settles = [&](const core::OpenGoal& open) {
+      return open.is_settled && open.goal == visited_ + goal;
+    };
+    return !are_other_ && std::any_of(open_.begin(), open_.end(), settles);
+  }
+
   const GoalTexts& of(std::size_t goal) const {
     static const GoalTexts none;
     return visited_ + goal < all_.size() ? all_[visited_ + goal] : none;
@@ -303,26 +323,40 @@ class TextsOfGoals {
 
  private:
   const std::vector<GoalTexts>& all_;
+  const std::vector<core::OpenGoal>& open_;
   std::size_t visited_ = 0;
   bool are_other_ = false;
 };
 
+/// Whether all poses of a goal are still possible. A robot that rests in the pose that its plan has chosen
+/// stays with that, unless it is done and `returns`.
+bool is_open(const core::Robot& robot, std::size_t goal, const TextsOfGoals& texts, bool returns) {
+  if (texts.of(goal).any_of.empty()) return false;
+  const core::Goal& next = robot.goal_at(goal);
+  if (goal > 0 || !texts.is_settled(goal) || !core::is_in_pose(robot.start, next)) return true;
+  return returns && robot.own_goal_count() == 1 && next.service == 0.0;
+}
+
 /// As one goal if the request gave one goal, otherwise as a list.
-void write_goals(JsonWriter& json, const core::Robot& robot, const TextsOfGoals& texts, bool as_one) {
+void write_goals(JsonWriter& json, const core::Robot& robot, const TextsOfGoals& texts, bool as_one,
+                 bool returns) {
+  const auto write = [&](std::size_t goal) {
+    write_goal(json, robot.goal_at(goal), texts.of(goal), is_open(robot, goal, texts, returns));
+  };
   const std::size_t count = robot.own_goal_count();
   if (count == 0) return;
   if (as_one && count == 1) {
     json.key("goal");
-    return write_goal(json, robot.goal_at(0), texts.of(0));
+    return write(0);
   }
   json.key("goals").begin_array();
-  for (std::size_t k = 0; k < count; ++k) write_goal(json, robot.goal_at(k), texts.of(k));
+  for (std::size_t k = 0; k < count; ++k) write(k);
   json.end_array();
 }
 
 /// `radius`: that the robot had.
 void write_robot(JsonWriter& json, const JsonValue& given, double radius, const core::Robot& robot,
-                 const TextsOfGoals& texts, core::Work& work) {
+                 const TextsOfGoals& texts, bool returns, core::Work& work) {
   const bool has_other_radius = robot.radius != radius;
   json.begin_object();
   for (const JsonValue member : given.children()) {
@@ -334,7 +368,7 @@ void write_robot(JsonWriter& json, const JsonValue& given, double radius, const 
   if (has_other_radius) json.member("radius", robot.radius);
   write_start(json, robot);
   const bool is_listed = given.find("goals").has_value() || texts.are_other();
-  write_goals(json, robot, texts, given.find("goal").has_value() || !is_listed);
+  write_goals(json, robot, texts, given.find("goal").has_value() || !is_listed, returns);
   if (robot.goal_age > 0.0) json.member("goal_age", robot.goal_age);
   if (!robot.committed.empty()) write_actions(json, "committed", robot.committed, work);
   if (robot.previous) write_actions(json, "previous", *robot.previous, work);
@@ -347,7 +381,7 @@ void write_robots(JsonWriter& json, const JsonValue& given, const AdvanceRequest
   std::size_t index = 0;
   for (const JsonValue robot : given.children()) {
     write_robot(json, robot, request.robots[index].radius, robots[index],
-                TextsOfGoals(request, index, robots[index]), work);
+                TextsOfGoals(request, index, robots[index]), request.returns[index], work);
     ++index;
   }
   json.end_array();

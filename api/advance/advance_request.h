@@ -22,6 +22,9 @@ struct AdvanceRequest {
   std::vector<Execution> executions;  // by robot
   /// By robot: what is repeated of its goals, or of those that replace them, see ParsedGoals.
   std::vector<std::vector<GoalTexts>> goal_texts;
+  std::vector<std::vector<core::OpenGoal>> open;  // by robot, as its plan has settled them
+  /// By robot: it may come back to any pose of its last goal, if that is open.
+  std::vector<bool> returns;
   std::vector<core::MovingObstacle> obstacles;
   JsonReader request;  // the member of the body
 };

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <new>
 #include <optional>
 #include <string>
@@ -21,7 +22,9 @@
 #include "core/model/objective_share.h"
 #include "core/model/plan.h"
 #include "core/replan/kept_plans.h"
+#include "core/runtime/executor.h"
 #include "core/runtime/stop_condition.h"
+#include "core/travel/goal_choice.h"
 #include "core/verify/verify.h"
 
 namespace fleetplan::api {
@@ -282,11 +285,69 @@ core::Plan plan_or_none(const Planner& planner, const PlanRequest& request, cons
   }
 }
 
+/// The part of the time for planning in which poses are chosen for goals that may be served at several.
+constexpr double kShareForChoices = 0.25;
+
+/// Chooses the poses for open goals by how long robots take. Returns false if that was not finished in time;
+/// then they keep those that are near.
+bool choose_poses(PlanRequest& request, const core::StopCondition& planning, core::Executor& executor) {
+  if (!request.open) return true;
+  const core::StopCondition stop = core::after_share(planning, kShareForChoices);
+  bool finished = false;
+  try {
+    auto problem = core::choose_by_arrival(request.problem, request.options, request.open->robots,
+                                           request.open->goals, finished, stop, executor);
+    if (problem) request.problem = std::move(*problem);
+  } catch (const std::bad_alloc&) {  // not granted to the job
+    finished = false;
+  }
+  tell_choices(request);
+  return finished;
+}
+
+/// How often other poses are tried for robots that have no plan with theirs.
+constexpr int kMostSecondChoices = 2;
+
+/// Makes robots that are unplanned because of others give up their poses. Returns whether any of them may get
+/// another one.
+bool give_up_poses(const core::Plan& plan, PlanRequest& request) {
+  bool any = false;
+  for (const core::Unplanned& robot : plan.unplanned) {
+    if (robot.reason != core::Unplanned::Reason::blocked_by_robots) continue;
+    any = core::give_up_poses(request.open->goals[robot.robot]) || any;
+  }
+  return any;
+}
+
+/// Returns the plan, or one with other poses for open goals in which fewer robots are unplanned; then the
+/// request has these poses.
+core::Plan with_other_poses(core::Plan plan, PlanRequest& request, const core::StopCondition& stop,
+                            core::Executor& executor,
+                            const std::function<core::Plan(const PlanRequest&)>& plan_anew) {
+  if (!request.open) return plan;
+  for (int k = 0; k < kMostSecondChoices; ++k) {
+    PlanRequest other = request;
+    if (!give_up_poses(plan, other)) break;
+    if (stop.met() || !choose_poses(other, stop, executor)) {
+      plan.deterministic = false;
+      break;
+    }
+    core::Plan with_others = plan_anew(other);
+    if (with_others.unplanned.size() >= plan.unplanned.size()) {
+      plan.deterministic = plan.deterministic && with_others.deterministic;
+      break;
+    }
+    plan = std::move(with_others);
+    request = std::move(other);
+  }
+  return plan;
+}
+
 Reply planned(const Planner& planner, std::string_view body, const RequestContext& context,
               core::Work& work) {
   Stages stages{.received = context.received_at, .parsed = {}, .started = {}, .planned = {}, .verified = {}};
   const auto begin = Clock::now();
-  const auto request = parse_request(body, context.limits, work, context.maps);
+  auto request = parse_request(body, context.limits, work, context.maps);
   if (!request) return problem_reply(request.failure(), context.request_id);
   stages.parsed = Clock::now();
 
@@ -321,7 +382,14 @@ Reply planned(const Planner& planner, std::string_view body, const RequestContex
     if (reply.outcome) reply.outcome->plan_seconds.reset();
     return reply;
   }
-  const core::Plan plan = plan_or_none(planner, *request, stop, reporter ? &*reporter : nullptr);
+  core::CallerThread callers_thread;
+  core::Executor& executor = context.executor != nullptr ? *context.executor : callers_thread;
+  const bool is_chosen = choose_poses(*request, stop, executor);
+  const auto plan_with_poses = [&](const PlanRequest& one) {
+    return plan_or_none(planner, one, stop, reporter ? &*reporter : nullptr);
+  };
+  core::Plan plan = with_other_poses(plan_with_poses(*request), *request, stop, executor, plan_with_poses);
+  plan.deterministic = plan.deterministic && is_chosen;
   return reporter && reporter->rejection() ? *reporter->rejection() : answer(plan, context.answered);
 }
 

@@ -13,6 +13,7 @@
 #include "api/request/parse_body.h"
 #include "core/map/static_map.h"
 #include "core/model/problem.h"
+#include "core/travel/goal_choice.h"
 
 namespace fleetplan::api {
 
@@ -20,6 +21,7 @@ namespace {
 
 struct MadeProblem {
   core::Problem problem;
+  std::optional<OpenFleet> open;  // if any goals are open
   /// The faults of each invalid robot; empty lists for the others, or no lists at all.
   std::vector<std::vector<Fault>> errors;
 };
@@ -48,6 +50,8 @@ class ProblemMaker {
     for (std::size_t index = 0; index < fleet.robots.size(); ++index) {
       if (!fleet.robots[index].placed) continue;
       robots_.push_back(taken(fleet.robots[index], poses_only));
+      open_.push_back(std::move(fleet.robots[index].open));
+      any_open_ = any_open_ || !open_.back().empty();
       indices_.push_back(index);
     }
     if (reports_) errors_.resize(robots_.size());
@@ -58,10 +62,14 @@ class ProblemMaker {
     while (map_) {
       core::ProblemConditions made_of = conditions();
       if (stop_.met()) break;
-      auto made = core::Problem::create(map_, reports_ ? robots_ : std::move(robots_), std::move(made_of),
-                                        stop_.reading());
+      if (any_open_ && !choose_poses()) {
+        if (reports_ && !stop_.met()) continue;
+        break;
+      }
+      auto made = core::Problem::create(map_, reports_ || any_open_ ? robots_ : std::move(robots_),
+                                        std::move(made_of), stop_.reading());
       if (auto* problem = std::get_if<core::Problem>(&made)) {
-        return MadeProblem{std::move(*problem), std::move(errors_)};
+        return MadeProblem{std::move(*problem), open_fleet(), std::move(errors_)};
       }
       const auto& faults = std::get<core::ProblemFaults>(made);
       if (!faults.finished) stop_.look();
@@ -77,9 +85,63 @@ class ProblemMaker {
   void report(const core::ProblemFaults& faults) {
     std::string cause = common_cause(faults, fleet_, indices_, *map_, stop_.reading());
     for (const auto& found : faults.listed) {
+      if (is_told_at_start(found, faults)) continue;
       const GeometryFault fault = describe(found, fleet_, indices_, map_->grid());
       fault.place.fault(fault.code, fault.detail + std::exchange(cause, ""));
     }
+  }
+
+  /// Whether the fault is that of a goal which a robot has because it returns to its start, and the start has
+  /// the same one.
+  bool is_told_at_start(const core::ProblemFault& found, const core::ProblemFaults& faults) const {
+    using Kind = core::ProblemFault::Kind;
+    const auto returns = [&](std::size_t robot) { return fleet_.robots[indices_[robot]].returns_to_start; };
+    const bool is_of_pair = found.kind == Kind::goals_overlap;
+    if (!is_of_pair && found.kind != Kind::goal_in_obstacle) return false;
+    if (!returns(found.robot) || (is_of_pair && !returns(found.other))) return false;
+    const Kind kind = is_of_pair ? Kind::starts_overlap : Kind::start_in_obstacle;
+    return std::any_of(faults.listed.begin(), faults.listed.end(), [&](const core::ProblemFault& other) {
+      return other.kind == kind && other.robot == found.robot && (!is_of_pair || other.other == found.other);
+    });
+  }
+
+  /// Chooses the poses of open goals, as far as that takes no search. Returns whether all of them have one.
+  bool choose_poses() {
+    const core::StopCondition stop = stop_.reading();
+    for (std::size_t k = 0; k < robots_.size(); ++k) {
+      if (robots_[k].invalid) open_[k].clear();
+      const auto& previous = robots_[k].previous;
+      core::settle_by_actions(robots_[k], open_[k], robots_[k].committed, false, stop);
+      if (previous) core::settle_by_actions(robots_[k], open_[k], *previous, false, stop);
+    }
+    bool all = true;
+    for (const auto& [robot, open] : core::leave_out_blocked_poses(map_, zones(), robots_, open_, stop)) {
+      all = false;
+      report_open(
+          robot, open, fault::kGoalInObstacle,
+          "None of these poses fits: at each of them, the disk of the robot overlaps a blocked cell, a "
+          "blocked zone or the edge of the map. Move one of them, or make the robot smaller.");
+    }
+    if (!all || stop_.met()) return false;
+    for (const auto& [robot, open] : core::choose_by_distance(robots_, open_, stop)) {
+      all = false;
+      report_open(
+          robot, open, fault::kGoalsOverlap,
+          "The robot would stay at one of these poses, but other robots stay at all of them that fit: "
+          "give more poses, or let robots go on with \"idle\": \"yield\".");
+    }
+    return all && !stop_.met();
+  }
+
+  void report_open(std::size_t robot, std::size_t open, const char* code, const std::string& detail) {
+    const JsonReader place = fleet_.robots[indices_[robot]].goals[open_[robot][open].goal].find("any_of");
+    if (!reports_) return place.fault(code, detail);
+    make_invalid(robot, place.described_fault(code, detail));
+  }
+
+  std::optional<OpenFleet> open_fleet() {
+    if (!any_open_) return std::nullopt;
+    return OpenFleet{std::move(robots_), std::move(open_)};
   }
 
   /// Whether invalid robots are reported. A request with other faults is refused anyway.
@@ -97,11 +159,7 @@ class ProblemMaker {
   }
 
   core::ProblemConditions conditions() {
-    const core::PlanOptions& options = fleet_.options.plan;
-    core::ProblemConditions conditions;
-    conditions.pair_overlap = std::max(0.0, options.start_overlap - 2.0 * options.inflation);
-    conditions.wall_overlap = std::max(0.0, options.start_overlap - options.inflation);
-    conditions.inflation = options.inflation;
+    core::ProblemConditions conditions = core::conditions_of(fleet_.options.plan);
     conditions.list_faults_of_every_robot = reports_;
     conditions.obstacles = reports_ ? fleet_.obstacles : std::move(fleet_.obstacles);
     conditions.zones = zones();
@@ -131,6 +189,7 @@ class ProblemMaker {
   bool mark_invalid(const core::ProblemFaults& faults) {
     bool any = false;
     for (const core::ProblemFault& found : faults.listed) {
+      if (is_told_at_start(found, faults)) continue;
       const GeometryFault fault = describe(found, fleet_, indices_, map_->grid());
       if (stop_.look()) return false;
       const Fault error = fault.place.described_fault(fault.code, fault.detail);
@@ -157,7 +216,9 @@ class ProblemMaker {
   core::Work& stop_;
   std::shared_ptr<const core::StaticMap> map_;
   bool reports_;
-  std::vector<core::Robot> robots_;   // the robots that are placed
+  std::vector<core::Robot> robots_;  // the robots that are placed
+  core::OpenGoals open_;             // of these robots
+  bool any_open_ = false;
   std::vector<std::size_t> indices_;  // index of each of these robots in the fleet
   std::vector<std::vector<Fault>> errors_;
 };
@@ -171,6 +232,16 @@ class ProblemMaker {
 std::optional<MadeProblem> make_problem(Fleet& fleet, const JsonReader& root, core::Work& stop,
                                         core::MapCache* maps) {
   return ProblemMaker(fleet, root, stop, maps).run();
+}
+
+/// Returns the choices of a robot, see ReceivedRobot.
+std::vector<std::optional<std::size_t>> choices_of(const std::vector<core::OpenGoal>& open) {
+  std::vector<std::optional<std::size_t>> choices;
+  for (const core::OpenGoal& goal : open) {
+    choices.resize(goal.goal);
+    choices.emplace_back(goal.choice().number);
+  }
+  return choices;
 }
 
 /// Returns what answers repeat of the robots. `errors` are those of each robot, or none.
@@ -201,14 +272,24 @@ std::optional<PlanRequest> parse_plan_request(const JsonReader& request, const L
   if (!made) return std::nullopt;
   std::vector<std::string> warnings = std::move(fleet.options.warnings);
   if (auto warning = budget_warning(fleet.options, limits)) warnings.push_back(std::move(*warning));
-  return PlanRequest{.problem = std::move(made->problem),
-                     .options = fleet.options.plan,
-                     .budget = effective_budget(fleet.options, limits),
-                     .frame = fleet.map->frame,
-                     .warnings = std::move(warnings),
-                     .received = received(fleet.robots, std::move(made->errors)),
-                     .metadata = std::move(fleet.metadata),
-                     .dependencies = requested_dependencies(fleet)};
+  std::vector<ReceivedRobot> repeated = received(fleet.robots, std::move(made->errors));
+  PlanRequest read{.problem = std::move(made->problem),
+                   .options = fleet.options.plan,
+                   .budget = effective_budget(fleet.options, limits),
+                   .frame = fleet.map->frame,
+                   .warnings = std::move(warnings),
+                   .received = std::move(repeated),
+                   .metadata = std::move(fleet.metadata),
+                   .dependencies = requested_dependencies(fleet),
+                   .open = std::move(made->open)};
+  tell_choices(read);
+  return read;
+}
+
+void tell_choices(PlanRequest& request) {
+  for (std::size_t k = 0; request.open && k < request.received.size(); ++k) {
+    request.received[k].choices = choices_of(request.open->goals[k]);
+  }
 }
 
 Result<PlanRequest, RequestError> parse_request(std::string_view body, const Limits& limits, core::Work& stop,

@@ -27,9 +27,16 @@
 #include "core/model/robot.h"
 #include "core/model/zone.h"
 #include "core/runtime/work.h"
+#include "core/travel/goal_choice.h"
 #include "core/verify/check_rules.h"
 
 namespace fleetplan::api {
+
+/// The robots of a request, goals that are open and those that are put off included.
+struct OpenFleet {
+  std::vector<core::Robot> robots;  // their goals have the poses that are chosen
+  core::OpenGoals goals;            // by robot
+};
 
 /// A valid body of POST /v1/plan.
 struct PlanRequest {
@@ -41,7 +48,11 @@ struct PlanRequest {
   std::vector<ReceivedRobot> received;  // by robot
   std::string metadata;                 // see parse_metadata
   RequestedDependencies dependencies;
+  std::optional<OpenFleet> open = {};  // if goals are open; the problem is made of these robots
 };
+
+/// Tells the answer which poses are chosen.
+void tell_choices(PlanRequest& request);
 
 /// The members of a request of POST /v1/plan. Those from `progress` on are of the answers of other endpoints,
 /// for who executes the plans, and are ignored.

@@ -68,4 +68,6 @@ std::string parse_goal_actions(const JsonReader& goal) {
   return text_of_member(member, "actions", "goal");
 }
 
+std::string text_of_any_of(const JsonReader& any_of) { return text_of_member(any_of, "any_of", "goal"); }
+
 }  // namespace fleetplan::api

@@ -84,10 +84,16 @@ std::string parse_metadata(const JsonReader& owner);
 /// repeated. Returns them as JSON text, or an empty text if they are absent or at fault.
 std::string parse_goal_actions(const JsonReader& goal);
 
+/// Returns the list as JSON text. Too long a text is a fault.
+std::string text_of_any_of(const JsonReader& any_of);
+
 /// What answers repeat of a goal, as JSON text; empty if it does not have it.
 struct GoalTexts {
   std::string metadata;  // see parse_metadata
   std::string actions;   // see parse_goal_actions
+  std::string any_of;    // the poses at one of which it is served
+
+  bool empty() const { return metadata.empty() && actions.empty() && any_of.empty(); }
 };
 
 }  // namespace fleetplan::api

@@ -166,6 +166,11 @@ void write_late_by(JsonWriter& json, const core::Goal& goal, double t_arrive) {
   if (const auto late = core::late_by(goal, t_arrive)) json.member("late_by", *late);
 }
 
+/// The number of the pose that the plan goes to; none for a goal that has one only.
+std::optional<std::size_t> choice_of(const ReceivedRobot& received, std::size_t goal) {
+  return goal < received.choices.size() ? received.choices[goal] : std::nullopt;
+}
+
 /// Ends the entry of a goal with its actions and metadata, if it has any. `texts`: of the goals by their
 /// number, or none.
 void end_visit(JsonWriter& json, std::size_t goal, const std::vector<GoalTexts>& texts) {
@@ -178,12 +183,13 @@ void end_visit(JsonWriter& json, std::size_t goal, const std::vector<GoalTexts>&
 
 /// Writes the goals that are put off: the one that is inside of a zone, and those that follow it.
 void write_goals_put_off(JsonWriter& json, const core::PostponedGoals& goals, const VerifiedPlan& verified,
-                         const std::vector<GoalTexts>& texts) {
+                         const ReceivedRobot& received) {
   for (std::size_t k = 0; k < goals.count; ++k) {
     begin_visit_without_times(json, goals.first + k);
     json.member("reason", k == 0 ? "zone_closed" : "goal_before");
     if (k == 0) json.member("zone", verified.problem.zones()[goals.zone].id);
-    end_visit(json, goals.first + k, texts);
+    if (choice_of(received, goals.first + k)) json.key("choice").json("null");
+    end_visit(json, goals.first + k, received.goal_texts);
   }
 }
 
@@ -191,12 +197,14 @@ void write_goals_put_off(JsonWriter& json, const core::PostponedGoals& goals, co
 /// the request. `goes_on`: it puts other goals off,
 /// so that the service at its last one has an end.
 void write_planned_visits(JsonWriter& json, const core::RobotPlan& plan, const core::Robot& robot,
-                          bool goes_on, const std::vector<GoalTexts>& texts) {
+                          bool goes_on, const ReceivedRobot& received) {
+  const std::vector<GoalTexts>& texts = received.goal_texts;
   for (const core::Visit& visit : plan.visits) {
     if (robot.goal_at(visit.goal).anywhere) continue;
     json.begin_object().member("goal", visit.goal).member("t_arrive", visit.t_arrive);
     const bool stays = visit.t_leave == core::kForever;
     json.member("t_leave", stays && goes_on ? plan.cost : visit.t_leave);  // null at the last goal
+    if (const auto choice = choice_of(received, visit.goal)) json.member("choice", *choice);
     write_late_by(json, robot.goal_at(visit.goal), visit.t_arrive);
     end_visit(json, visit.goal, texts);
   }
@@ -204,6 +212,7 @@ void write_planned_visits(JsonWriter& json, const core::RobotPlan& plan, const c
     if (robot.goal_at(visit.goal).anywhere) continue;
     begin_visit_without_times(json, visit.goal);
     json.member("estimated_t_arrive", visit.t_arrive);  // null without a way
+    if (choice_of(received, visit.goal)) json.key("choice").json("null");
     write_late_by(json, robot.goal_at(visit.goal), visit.t_arrive);
     end_visit(json, visit.goal, texts);
   }
@@ -212,15 +221,15 @@ void write_planned_visits(JsonWriter& json, const core::RobotPlan& plan, const c
 /// Writes the member `visits`. The end of a way out that stands in for goals is none. At the last goal before
 /// those that are put off, the service ends, as at any other goal that is not the last one.
 void write_visits(JsonWriter& json, const core::RobotPlan& plan, const VerifiedPlan& verified) {
-  const std::vector<GoalTexts>& texts = verified.received[plan.robot].goal_texts;
+  const ReceivedRobot& received = verified.received[plan.robot];
   const core::Leaving* leaving = verified.problem.leaving(plan.robot);
   const bool puts_off = leaving != nullptr && leaving->postponed;
   json.key("visits").begin_array();
   const core::Robot& robot = verified.problem.robots()[plan.robot];
   if (leaving == nullptr || !leaving->rests_outside) {
-    write_planned_visits(json, plan, robot, puts_off, texts);
+    write_planned_visits(json, plan, robot, puts_off, received);
   }
-  if (puts_off) write_goals_put_off(json, *leaving->postponed, verified, texts);
+  if (puts_off) write_goals_put_off(json, *leaving->postponed, verified, received);
   json.end_array();
 }
 

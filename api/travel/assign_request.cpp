@@ -23,6 +23,18 @@ constexpr std::array<std::string_view, 5> kTaskMembers{"id", "goals", "robots", 
 /// Weights that differ by less count the same where there are too few robots.
 constexpr double kSameWeight = 1e-6;
 
+/// Arrivals are those at given poses. `owner`: a task or a robot.
+void reject_any_of(const JsonReader& owner) {
+  const auto reject = [](const JsonReader& goal) {
+    if (const JsonReader any_of = goal.find("any_of")) {
+      any_of.fault(fault::kUnknownKey,
+                   "any_of is for POST /v1/plan; for an assignment, give each goal a pose.");
+    }
+  };
+  reject(owner.find("goal"));
+  for (const JsonReader goal : owner.find("goals").items()) reject(goal);
+}
+
 class TaskReader {
  public:
   TaskReader(const AssignRequest& request, const Limits& limits)
@@ -38,7 +50,10 @@ class TaskReader {
     const JsonReader goals = json.require("goals", "; give a list of goals, as a robot has");
     if (goals.array() && goals.size() == 0) goals.fault(fault::kEmpty, "A task has at least one goal.");
     core::Task& task = request.tasks.emplace_back();
-    if (goals) task.goals = parse_goals(json, request_.plan.frame, goals_).goals;
+    if (goals) {
+      task.goals = parse_goals(json, request_.plan.frame, goals_).goals;
+      reject_any_of(json);
+    }
     task.robots = robots(json.find("robots"));
     json.find("due").number(kDuration);
     request.weights.push_back(json.find("weight").number(kWeight).value_or(1.0));
@@ -102,6 +117,9 @@ std::optional<AssignRequest> parse_assign_request(const JsonReader& root, const 
   const JsonReader tasks = root.require("tasks", "; give a list of tasks").array();
   if (!member) return std::nullopt;
   auto plan = parse_plan_request(member, limits, stop, maps);
+  if (plan && plan->open) {
+    for (const JsonReader robot : member.find("robots").items()) reject_any_of(robot);
+  }
   // With faults, robots may be missing that tasks name.
   if (!plan || root.fault_count() > 0) return std::nullopt;
   AssignRequest request{

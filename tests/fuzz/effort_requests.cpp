@@ -153,6 +153,24 @@ Json obstacles_of(const Extent& extent, Choices& choices) {
   return obstacles;
 }
 
+/// Goals that are served at one of the starts of robots, as many as there may be.
+void add_open_goals(Json& robots, Choices& choices) {
+  constexpr std::size_t kMostPoses = 100;
+  constexpr std::size_t kMostRobots = 190;  // with all poses within max_goals
+  const std::size_t poses = std::min(robots.size(), 2 + static_cast<std::size_t>(choices.up_to(98)));
+  if (poses < 2) return;
+  Json any_of = Json::array();
+  for (std::size_t k = 0; k < std::min(poses, kMostPoses); ++k) {
+    any_of.push_back(robots[(7 * k) % robots.size()]["start"]);
+  }
+  for (std::size_t k = 0; k < robots.size() && k < kMostRobots; ++k) {
+    if (!robots[k].contains("goal")) continue;
+    for (const char* member : {"x", "y", "theta"}) robots[k]["goal"].erase(member);
+    robots[k]["goal"]["any_of"] = any_of;
+    robots[k]["idle"] = k < poses / 2 ? "stay" : "yield";
+  }
+}
+
 /// Members that a request of POST /v1/plan may have besides.
 void add_members(Json& request, Choices& choices) {
   const Extent extent = extent_of(request["map"]);
@@ -193,6 +211,7 @@ void add_members(Json& request, Choices& choices) {
     robots[k].erase("goal");
     robots[k]["goals"] = std::move(list);
   }
+  if (choices.yes()) add_open_goals(robots, choices);
   if (choices.yes()) {
     request["robot_defaults"]["linear_acceleration"] = choices.one_of(std::array{1e-3, 0.5, 1e6});
     request["robot_defaults"]["angular_acceleration"] = choices.one_of(std::array{1e-3, 2.0, 1e6});

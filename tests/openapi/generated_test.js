@@ -91,9 +91,10 @@ const BEYOND_SCHEMA = {
   committed_collision: /^\/robots\/\d+\/committed\/\d+$/,
   committed_in_zone: /^\/robots\/\d+\/committed\/\d+$/,
   start_in_obstacle: /^\/(robots\/\d+\/start|from\/\d+)$/,
-  goal_in_obstacle: /^\/(robots\/\d+\/(start|goal(s\/\d+)?)|to\/\d+)$/, // a robot that returns to its start
+  // of a robot that returns to its start, where it overlaps a wall by no more than start_overlap
+  goal_in_obstacle: /^\/(robots\/\d+\/(start|goal(s\/\d+)?(\/any_of)?)|to\/\d+)$/,
   starts_overlap: /^\/robots\/\d+\/start$/,
-  goals_overlap: /^\/robots\/\d+\/(start|goal(s\/\d+)?)$/,
+  goals_overlap: /^\/robots\/\d+\/(start|goal(s\/\d+)?(\/any_of)?)$/,
   dependency: /^\/dependencies\/\d+(\/slack|\/(gate|until)\/\w+)?$/,
   invalid_plan: /^\/(plans\/\d+(\/actions\/\d+)?|robots\/\d+)$/,
 };

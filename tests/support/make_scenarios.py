@@ -342,6 +342,42 @@ def parking():
     }
 
 
+def formation():
+    """Forty robots line up in two rings; it does not matter who stands where."""
+    grid = Map(48, 48, 0.5)
+    rings = [(9.0, 24), (5.5, 16)]  # radius in metres, places
+    places = [{"x": round(12.0 + radius * math.cos(2.0 * PI * k / count), 3),
+               "y": round(12.0 + radius * math.sin(2.0 * PI * k / count), 3)}
+              for radius, count in rings for k in range(count)]
+    robots = []
+    for number in range(40):  # side by side in the south
+        x, y = grid.center(4 + 4 * (number % 10), 1 + 2 * (number // 10))
+        robots.append(robot(f"robot-{number + 1:02}", pose(x, y, PI / 2)) | {"goal": {"any_of": places}})
+    return {
+        "map": grid.json(),
+        "robot_defaults": {"radius": 0.3, "linear_speed": 1.0, "angular_speed": 2.0},
+        "robots": robots,
+    }
+
+
+def station_queue():
+    """Two charging stations at the end of a hall, each as good as the other, and more robots than stations."""
+    grid = Map(30, 14, 0.5)
+    grid.block(24, 0, 6, 2)
+    grid.block(24, 6, 6, 2)
+    grid.block(24, 12, 6, 2)
+    stations = {"any_of": [{"x": 14.25, "y": 2.0, "theta": 0.0}, {"x": 14.25, "y": 5.0, "theta": 0.0}], "service": 20.0}
+    robots = []
+    for number, (column, row) in enumerate([(4, 2), (4, 11), (8, 6), (12, 1), (12, 12), (16, 8)]):
+        made = robot(f"robot-{number + 1}", pose(*grid.center(column, row), 0.0), idle="yield")
+        robots.append(made | {"goals": [stations]})
+    return {
+        "map": grid.json(),
+        "robot_defaults": {"radius": 0.35, "linear_speed": 1.0, "angular_speed": 2.0},
+        "robots": robots,
+    }
+
+
 def fleet_in(building, kinds, seed, boxes=()):
     """Robots of the kinds in turn, at random places of a building that do not block it for the widest."""
     widest = max(kind["radius"] for _, _, kind in kinds)
@@ -435,6 +471,10 @@ SCENARIOS = [  # in display order
      "Charged robots leave their docks while empty ones come for them; the makespan is improved."),
     ("parking", "Parking", parking,
      "Carriers cross a warehouse in which idle robots stand; those that are in the way yield, the others do not move."),
+    ("formation", "Formation", formation,
+     "Forty robots line up in two rings. Any of them may take any place; each gets one at the least sum of their times."),
+    ("station-queue", "Queue at stations", station_queue,
+     "Six robots come to two charging stations, either of which will do; they wait their turn and make way."),
     ("hospital-ward", "Hospital ward", hospital_ward,
      "Carts, couriers and a bed in a corridor with parked carts; no robot stands on the lattice."),
     ("lab-polygon", "Laboratory polygon", lab_polygon,
@@ -474,9 +514,14 @@ def faults(request):
     grid = Map.from_json(request["map"])
     defaults = request.get("robot_defaults", {})
     found = []
+    for made in request["robots"]:
+        for goal in [made.get("goal", {}), *made.get("goals", [])]:
+            radius = made.get("radius", defaults.get("radius"))
+            found += [f"a pose of {made['id']} is in an obstacle" for one in goal.get("any_of", [])
+                      if grid.clearance(one["x"], one["y"]) < radius - 1e-9]
     for member in ("start", "goal"):
         disks = [(r["id"], r[member]["x"], r[member]["y"], r.get("radius", defaults.get("radius")))
-                 for r in request["robots"] if member in r]
+                 for r in request["robots"] if "x" in r.get(member, {})]
         for index, (name, x, y, radius) in enumerate(disks):
             if grid.clearance(x, y) < radius - 1e-9:
                 found.append(f"{member} of {name}: {grid.clearance(x, y):.3f} m from an obstacle, radius {radius}")

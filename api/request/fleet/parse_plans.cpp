@@ -1,5 +1,6 @@
 #include "api/request/fleet/parse_plans.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -26,8 +27,9 @@ namespace {
 constexpr std::array<std::string_view, 12> kPlanMembers{
     "robot", "cost",       "lower_bound",      "estimated_cost", "ends_at",  "actions",
     "stuck", "blocked_by", "blocked_by_total", "visits",         "metadata", "lattice_spacing"};
-constexpr std::array<std::string_view, 9> kVisitMembers{
-    "goal", "t_arrive", "t_leave", "late_by", "estimated_t_arrive", "reason", "zone", "actions", "metadata"};
+constexpr std::array<std::string_view, 10> kVisitMembers{
+    "goal",   "t_arrive", "t_leave", "late_by", "estimated_t_arrive",
+    "choice", "reason",   "zone",    "actions", "metadata"};
 
 // A plan that begins before 0 is a violation to report, not a fault of the request.
 constexpr Range kPlanTime{-kLongestTime, kLongestTime, "seconds"};
@@ -42,6 +44,42 @@ std::optional<core::Visit> parse_visit(const JsonReader& item) {
   const JsonReader leaves = json.require("t_leave", "; give null for the last goal");
   visit.t_leave = leaves.is_null() ? core::kForever : leaves.number(kPlanTime).value_or(0.0);
   return arrives.is_null() ? std::nullopt : std::optional(visit);
+}
+
+/// Reads the pose that a visit names, or null, for a robot whose goal is open.
+void parse_choice(const JsonReader& member, const JsonReader& item, ParsedRobot& read) {
+  if (member.is_null()) return;
+  const auto number = member.natural(kGreatestIndex);
+  const auto goal = item.find("goal").natural();
+  if (!number || !goal) return;
+  const auto open = std::find_if(read.open.begin(), read.open.end(),
+                                 [&](const core::OpenGoal& one) { return one.goal == *goal; });
+  if (open == read.open.end()) {
+    return member.fault(fault::kOutOfRange, [&] {
+      return "Goal " + std::to_string(*goal) + " of robot " + in_quotes(read.robot.id) +
+             " has no any_of; leave choice out.";
+    });
+  }
+  if (*number >= open->poses.size()) {
+    return member.fault(fault::kOutOfRange, [&] {
+      return "any_of of goal " + std::to_string(*goal) + " has " + std::to_string(open->poses.size()) +
+             " poses, numbered from 0.";
+    });
+  }
+  core::choose(read.robot, *open, *number);
+  open->is_settled = true;
+}
+
+/// Settles what is open by the visits of the plan or, if they say nothing of it, by its actions.
+void settle_choices(const JsonReader& json, const core::RobotPlan& plan, ParsedRobot& read) {
+  bool is_told = false;
+  for (const JsonReader item : json.find("visits").items()) {
+    const JsonReader member = item.find("choice");
+    if (member) parse_choice(member, item, read);
+    is_told = is_told || member;
+  }
+  if (is_told || read.open.empty()) return;
+  core::settle_by_actions(read.robot, read.open, plan.actions, true, json.stop().reading());
 }
 
 core::RobotPlan parse_plan(const JsonReader& json, const WorldFrame& frame) {
@@ -88,18 +126,26 @@ class Roster {
 
 }  // namespace
 
-std::vector<core::RobotPlan> parse_plans(const JsonReader& member, const std::vector<ParsedRobot>& robots,
+std::vector<core::RobotPlan> parse_plans(const JsonReader& member, std::vector<ParsedRobot>& robots,
                                          const WorldFrame& frame) {
   std::vector<core::RobotPlan> plans;
+  std::vector<bool> is_planned(robots.size(), false);
   Roster roster(robots);
   for (const JsonReader item : member.array().items()) {
     const JsonReader json = item.object(kPlanMembers);
     core::RobotPlan plan = parse_plan(json, frame);
     if (const auto owner = roster.assign(json.require("robot"))) {
       plan.robot = *owner;
+      is_planned[*owner] = true;
+      settle_choices(json, plan, robots[*owner]);
       for (core::Action& action : plan.actions) set_inertia(action, robots[*owner].robot);
       plans.push_back(std::move(plan));
     }
+  }
+  for (std::size_t k = 0; k < robots.size(); ++k) {
+    if (is_planned[k] || robots[k].open.empty()) continue;
+    core::settle_by_actions(robots[k].robot, robots[k].open, robots[k].robot.committed, false,
+                            member.stop().reading());
   }
   return plans;
 }

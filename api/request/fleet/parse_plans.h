@@ -17,8 +17,10 @@ namespace fleetplan::api {
 struct Fleet;
 
 /// Reads the member `plans` of a request to validate: at most one for each robot, in any order. The checker
-/// decides later whether the plans are valid.
-std::vector<core::RobotPlan> parse_plans(const JsonReader& member, const std::vector<ParsedRobot>& robots,
+/// decides later whether the plans are valid. Open goals of the robots get the poses that the visits of the
+/// plans name, or else those at which the actions serve them first, of the plan or, without one, the
+/// committed ones.
+std::vector<core::RobotPlan> parse_plans(const JsonReader& member, std::vector<ParsedRobot>& robots,
                                          const WorldFrame& frame);
 
 /// Reads `dependencies`: those that the service has made for these plans. Robots and actions that do not

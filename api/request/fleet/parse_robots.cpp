@@ -20,8 +20,9 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<std::string_view, 9> kGoalMembers{
-    "x", "y", "theta", "service", "not_before", "due", "radius_after", "actions", "metadata"};
+constexpr std::array<std::string_view, 10> kGoalMembers{
+    "x", "y", "theta", "any_of", "service", "not_before", "due", "radius_after", "actions", "metadata"};
+constexpr std::array<std::string_view, 4> kAlternativeMembers{"x", "y", "theta", "bias"};
 
 /// A robot that waits for `not_before` is not late, so it cannot be due before.
 void check_due(const JsonReader& due, double due_at, double not_before) {
@@ -32,19 +33,58 @@ void check_due(const JsonReader& due, double due_at, double not_before) {
   });
 }
 
+/// Reads the poses of `any_of`, which a goal has instead of one of its own.
+std::vector<core::Alternative> parse_any_of(const JsonReader& goal, const JsonReader& any_of,
+                                            const WorldFrame& frame, Quota& quota) {
+  std::vector<core::Alternative> poses;
+  for (const std::string_view member : {"x", "y", "theta"}) {
+    if (const JsonReader own = goal.find(member)) {
+      own.fault(fault::kDuplicate,
+                "The goal has any_of, too, whose poses have x, y and theta; give either "
+                "a pose or any_of.");
+    }
+  }
+  const JsonReader list = any_of.array();
+  if (!list) return poses;
+  if (list.size() < kFewestPoses || list.size() > kMostPoses) {
+    list.fault(fault::kOutOfRange, "any_of must have " + std::to_string(kFewestPoses) + " to " +
+                                       std::to_string(kMostPoses) + " poses, not " +
+                                       std::to_string(list.size()) +
+                                       "; a goal with one pose has it as x, y and theta.");
+    return poses;
+  }
+  if (!quota.take(list)) return poses;
+  for (const JsonReader item : list.items()) {
+    const JsonReader json = item.object(kAlternativeMembers);
+    const auto pose = parse_pose(json, frame);
+    const double bias = json.find("bias").number(kDuration).value_or(0.0);
+    if (pose) poses.push_back({pose->position, pose->theta, bias, poses.size()});
+  }
+  return poses;
+}
+
 /// Adds the goal if it is valid.
-void add_goal(const JsonReader& member, const WorldFrame& frame, ParsedGoals& read) {
+void add_goal(const JsonReader& member, const WorldFrame& frame, Quota& quota, ParsedGoals& read) {
   const std::size_t before = member.fault_count();
   const JsonReader json = member.object(kGoalMembers);
-  auto goal = parse_pose(json, frame);
+  const JsonReader any_of = json.find("any_of");
+  std::vector<core::Alternative> poses;
+  std::optional<core::Goal> goal;
+  if (any_of) {
+    poses = parse_any_of(json, any_of, frame, quota);
+    if (!poses.empty()) goal = core::Goal{poses.front().position, poses.front().theta};
+  } else {
+    goal = parse_pose(json, frame);
+  }
   const auto service = json.find("service").number(kDuration);
   const auto not_before = json.find("not_before").number(kDuration);
   const JsonReader due_member = json.find("due");
   const auto due = due_member.number(kDue);
   if (due) check_due(due_member, *due, not_before.value_or(0.0));
   const auto radius_after = json.find("radius_after").number(kLength);
-  GoalTexts texts{parse_metadata(json), parse_goal_actions(json)};
-  const bool has_texts = !texts.metadata.empty() || !texts.actions.empty();
+  GoalTexts texts{parse_metadata(json), parse_goal_actions(json),
+                  poses.empty() ? std::string() : text_of_any_of(any_of)};
+  const bool has_texts = !texts.empty();
   if (!goal || member.fault_count() != before) return;
   goal->service = service.value_or(0.0);
   goal->not_before = not_before.value_or(0.0);
@@ -55,6 +95,7 @@ void add_goal(const JsonReader& member, const WorldFrame& frame, ParsedGoals& re
     read.texts.resize(read.goals.size());
     read.texts.push_back(std::move(texts));
   }
+  if (!poses.empty()) read.open.push_back({read.goals.size(), std::move(poses)});
   read.goals.push_back(*goal);
   read.places.push_back(member);
 }
@@ -86,11 +127,11 @@ ParsedGoals parse_goals(const JsonReader& robot, const WorldFrame& frame, Quota&
     several.fault(fault::kDuplicate,
                   "The robot has both goal and goals; give one of them: goal is short for a list of one.");
   }
-  if (single) add_goal(single, frame, read);
+  if (single) add_goal(single, frame, quota, read);
   const JsonReader list = several.array();
   if (single || !list || !quota.take(list)) return read;
   read.lists_visits = true;
-  for (const JsonReader item : list.items()) add_goal(item, frame, read);
+  for (const JsonReader item : list.items()) add_goal(item, frame, quota, read);
   return read;
 }
 
@@ -265,6 +306,7 @@ class RobotReader {
     read.goals = std::move(goals.places);
     read.lists_visits = goals.lists_visits;
     read.goal_texts = std::move(goals.texts);
+    read.open = std::move(goals.open);
     if (goals.goals.empty()) return;
     read.robot.goal = goals.goals.back();
     goals.goals.pop_back();
@@ -281,6 +323,7 @@ class RobotReader {
     if (read.idle != Idle::come_back || robot.goal) return;
     robot.goal = core::Goal{robot.committed_end().position, robot.committed_end().theta};
     read.goals = {read.start};
+    read.returns_to_start = true;
   }
 
   void read_actions(const JsonReader& json, const ActionsOwner& owner, ParsedRobot& read) {

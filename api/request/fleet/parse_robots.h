@@ -15,6 +15,7 @@
 #include "api/request/limits.h"
 #include "api/request/shared_members.h"
 #include "api/request/world_frame.h"
+#include "core/model/open_goal.h"
 #include "core/model/robot.h"
 
 namespace fleetplan::api {
@@ -27,6 +28,8 @@ struct ParsedGoals {
   /// each is visited.
   bool lists_visits = false;
   std::vector<GoalTexts> texts;  // by goal; shorter if the last ones have none
+  /// Those that are served at one of several poses, ascending. They have the first pose in `goals`.
+  std::vector<core::OpenGoal> open;
 };
 
 /// Reads `x`, `y` and `theta` (optional) of a pose whose members are known. Returns none when one has a
@@ -36,8 +39,12 @@ std::optional<core::Goal> parse_pose(const JsonReader& pose, const WorldFrame& f
 /// Reads a pose that has no other members.
 std::optional<core::Goal> parse_plain_pose(const JsonReader& pose, const WorldFrame& frame);
 
+/// The fewest and the most poses of `any_of`.
+inline constexpr std::size_t kFewestPoses = 2;
+inline constexpr std::size_t kMostPoses = 100;
+
 /// Reads `goal` or `goals` of a robot. Without both, or with an empty list, there are none. `quota` limits
-/// the goals of the request.
+/// the goals of the request, and the poses of `any_of`.
 ParsedGoals parse_goals(const JsonReader& robot, const WorldFrame& frame, Quota& quota);
 
 /// What a robot does that has no goal, or has served its last one.
@@ -55,12 +62,14 @@ struct ParsedRobot {
   ReceivedMotion received_previous;
   bool lists_visits = false;               // see ParsedGoals
   std::vector<GoalTexts> goal_texts;       // see ParsedGoals
+  std::vector<core::OpenGoal> open;        // see ParsedGoals; the robot's goals have the choices
   std::string metadata;                    // see parse_metadata
   std::optional<double> execution_margin;  // metres
   double stop_distance = 0.0;              // metres that it drives until it stands, see /v1/advance
   std::optional<double> body_radius = {};  // metres, of the robot itself, if it is planned with another one
   /// If given; what it means for the plan is in the goals of the robot.
   std::optional<Idle> idle = {};
+  bool returns_to_start = false;  // its goal is that it comes back, and not given
 };
 
 /// Reads `robots` and `robot_defaults` (may be absent): at least one robot, and not more robots, goals and

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,9 @@ struct ReceivedRobot {
   std::vector<Fault> errors;               // why it is invalid; empty if it is not
   std::string metadata = {};               // of the robot, see parse_metadata
   std::vector<GoalTexts> goal_texts = {};  // by goal, as in ParsedGoals
+  /// By goal: the number of the pose of `any_of` that the plan goes to; none for a goal without. Shorter if
+  /// the last ones have none.
+  std::vector<std::optional<std::size_t>> choices = {};
 };
 
 }  // namespace fleetplan::api

@@ -191,16 +191,37 @@ class GoalAction(TypedDict):
     parameters: NotRequired[dict[str, Any]]
 
 
-class Goal(TypedDict):
+class GoalDetails(TypedDict, total=False):
+    """What goals have besides where they are."""
+
+    service: float
+    not_before: float
+    due: float
+    radius_after: float
+    actions: list[GoalAction]
+    metadata: Metadata
+
+
+class PlacedGoal(GoalDetails):
     x: float
     y: float
     theta: NotRequired[float]
-    service: NotRequired[float]
-    not_before: NotRequired[float]
-    due: NotRequired[float]
-    radius_after: NotRequired[float]
-    actions: NotRequired[list[GoalAction]]
-    metadata: NotRequired[Metadata]
+
+
+class Alternative(TypedDict):
+    x: float
+    y: float
+    theta: NotRequired[float]
+    bias: NotRequired[float]
+
+
+class OpenGoal(GoalDetails):
+    """A goal that is served at one of several poses."""
+
+    any_of: list[Alternative]
+
+
+Goal: TypeAlias = PlacedGoal | OpenGoal
 
 
 class RobotDefaults(TypedDict, total=False):
@@ -273,6 +294,7 @@ class Visit(TypedDict):
     t_leave: float | None
     reason: NotRequired[Literal["zone_closed", "goal_before"]]
     zone: NotRequired[str]
+    choice: NotRequired[int | None]
     late_by: NotRequired[float | None]
     estimated_t_arrive: NotRequired[float | None]
     actions: NotRequired[list[GoalAction]]
@@ -713,7 +735,7 @@ class MatrixAnswer(TypedDict):
 
 class Task(TypedDict):
     id: str
-    goals: list[Goal]
+    goals: list[PlacedGoal]
     robots: NotRequired[list[str]]
     due: NotRequired[float]
     weight: NotRequired[float]

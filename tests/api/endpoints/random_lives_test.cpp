@@ -79,6 +79,44 @@ void add_accelerations(Dice& dice, Json& json) {
   }
 }
 
+/// The goals of a robot, however they are given.
+std::vector<Json*> goals_of(Json& robot) {
+  std::vector<Json*> goals;
+  if (robot.contains("goal")) goals.push_back(&robot["goal"]);
+  if (!robot.contains("goals")) return goals;
+  for (Json& goal : robot["goals"]) goals.push_back(&goal);
+  return goals;
+}
+
+/// Some goals may be served where others have goals, too. Robots that stay at their last goals can do so at
+/// their own ones.
+void add_open_goals(Dice& dice, Json& json) {
+  std::vector<Json> places;
+  for (Json& robot : json.at("robots")) {
+    for (const Json* goal : goals_of(robot)) {
+      Json& place = places.emplace_back();
+      for (const char* member : {"x", "y", "theta"}) {
+        if (goal->contains(member)) place[member] = goal->at(member);
+      }
+    }
+  }
+  std::size_t own = 0;
+  for (Json& robot : json.at("robots")) {
+    for (Json* goal : goals_of(robot)) {
+      const Json place = places[own++];
+      if (dice.chance(0.4)) continue;
+      Json poses = Json::array({place});
+      for (int more = 1 + dice.below(4); more > 0; --more) {
+        poses.push_back(places[static_cast<std::size_t>(dice.below(static_cast<int>(places.size())))]);
+        if (dice.chance(0.3)) poses.back()["bias"] = dice.between(0.0, 20.0);
+      }
+      std::swap(poses.front(), poses[static_cast<std::size_t>(dice.below(static_cast<int>(poses.size())))]);
+      for (const char* member : {"x", "y", "theta"}) goal->erase(member);
+      (*goal)["any_of"] = std::move(poses);
+    }
+  }
+}
+
 /// A valid request with all kinds of members.
 Json first_request(Dice& dice) {
   while (true) {
@@ -95,6 +133,7 @@ Json first_request(Dice& dice) {
     if (dice.chance(0.2)) json["options"]["dependencies"] = true;
     if (dice.chance(0.3)) add_stop_distances(dice, json);
     if (dice.chance(0.3)) add_accelerations(dice, json);
+    if (dice.chance(0.4)) add_open_goals(dice, json);
     return json;
   }
 }
@@ -194,6 +233,43 @@ void expect_that_it_can_stop(const Json& robot, const Json& actions, std::size_t
   EXPECT_GE(driven(robot.value("committed", Json::array()), 0), needs - kRounding) << robot;
 }
 
+/// Where a robot with these actions is at a time, once they have begun.
+core::Position position_at(const Json& robot, const Json& actions, double t) {
+  if (const auto under = under_way(actions, t)) return under->pose.position;
+  const Json& end = actions.empty() ? robot.at("start") : actions.back().at("to");
+  return core::Position(end.at("x").get<double>(), end.at("y").get<double>());
+}
+
+/// Robots are at the poses that their visits name, and an independent check finds no fault with the answer.
+void expect_that_choices_hold(Json request, const Json& answer) {
+  constexpr double kRounding = 1e-6;  // metres
+  bool any = false;
+  for (const Json& plan : answer.at("plans")) {
+    Json robot;
+    for (const Json& one : request.at("robots")) {
+      if (one.at("id") == plan.at("robot")) robot = one;
+    }
+    const std::vector<Json*> goals = goals_of(robot);
+    for (const Json& visit : plan.value("visits", Json::array())) {
+      const Json& goal = *goals[visit.at("goal").get<std::size_t>()];
+      EXPECT_EQ(visit.contains("choice"), goal.contains("any_of"));
+      if (!visit.contains("choice")) continue;
+      any = true;
+      EXPECT_EQ(visit.at("choice").is_null(), visit.at("t_arrive").is_null());
+      if (visit.at("choice").is_null()) continue;
+      const Json& pose = goal.at("any_of").at(visit.at("choice").get<std::size_t>());
+      const core::Position chosen(pose.at("x").get<double>(), pose.at("y").get<double>());
+      const double away = (position_at(robot, plan.at("actions"), visit.at("t_arrive")) - chosen).norm();
+      EXPECT_LE(away, kRounding) << plan;
+    }
+  }
+  if (!any || answer.contains("unavoidable")) return;
+  request.update(answer);
+  const Reply reply = validate_endpoint(request.dump(), {});
+  ASSERT_EQ(reply.status, 200) << reply.body;
+  EXPECT_EQ(Json::parse(reply.body).at("violations"), Json::array()) << request;
+}
+
 /// A fleet from round to round.
 class Life {
  public:
@@ -215,6 +291,7 @@ class Life {
     if (reply.status != 200) return false;
     answer_ = Json::parse(reply.body);
     EXPECT_EQ(answer_.at("verified"), true);
+    expect_that_choices_hold(request_, answer_);
     return true;
   }
 
@@ -281,8 +358,10 @@ class Life {
                        [&](const Json& plan) { return plan.at("robot") == robot.at("id"); });
   }
 
-  /// A robot that keeps its radius begins again with its first goal.
+  /// A robot that keeps its radius begins again with its first goal. Where goals are open, another one may
+  /// have taken its last one.
   void start_anew(Json& body, const Json& robot) const {
+    if (first_.dump().find("any_of") != std::string::npos) return;
     for (const Json& one : first_.at("robots")) {
       if (one.at("id") != robot || !one.contains("goals")) continue;
       const auto keeps_radius = [](const Json& goal) { return !goal.contains("radius_after"); };

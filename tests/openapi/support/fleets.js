@@ -106,9 +106,15 @@ function fleets(document, map, free) {
       robots: robots.map(({ start, goal, before, own, age }, index) => {
         const one = { id: ids[index], ...own, ...age, start: place(starts[index], start) };
         if (!goal) return one;
-        const last = { ...place(ends[index], goal.pose), ...goal.errand };
+        const end = place(ends[index], goal.pose);
+        const last = { ...end, ...goal.errand };
         if (before.length === 0) return { ...one, goal: last };
-        const passed = before.map(({ pose, errand, cell }) => ({ ...place(free[cell], pose), ...errand }));
+        const passed = before.map(({ pose, errand, cell }, k) => {
+          const at = place(free[cell], pose);
+          // Some goals may be served at the last one, too.
+          const anywhere = cell % 3 === 0 && k > 0;
+          return { ...(anywhere ? { any_of: [{ ...at, bias: k }, end] } : at), ...errand };
+        });
         return { ...one, goals: [...passed, last] };
       }),
     }));

@@ -25,6 +25,20 @@ void give_obstacle(Json& request, const std::function<void(Json&)>& modify) {
   modify(request["obstacles"][0]);
 }
 
+TEST(FaultsOfIdleRobots, AStartToReturnToIsReportedOnce) {
+  Json request = swap_request();
+  for (Json& robot : request["robots"]) {
+    robot.erase("goal");
+    robot["idle"] = "return";
+  }
+  Json outside = request;
+  robot(outside, 1)["start"]["x"] = -1;
+  EXPECT_THAT(brief(faults_of(outside.dump())), ElementsAre(Pair("/robots/1/start", "start_in_obstacle")));
+  Json twice = request;
+  robot(twice, 1)["start"] = robot(twice, 0)["start"];
+  EXPECT_THAT(brief(faults_of(twice.dump())), ElementsAre(Pair("/robots/1/start", "starts_overlap")));
+}
+
 class OneFaultOfMotion : public testing::TestWithParam<Case> {};
 
 TEST_P(OneFaultOfMotion, IsReportedAtItsPlace) { expect_one_fault(moving_request(), GetParam()); }

@@ -1,0 +1,49 @@
+#pragma once
+
+// Goals that are served at one of several poses.
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/geometry/position.h"
+#include "core/model/action.h"
+#include "core/model/robot.h"
+#include "core/runtime/stop_condition.h"
+
+namespace fleetplan::core {
+
+/// A pose at which a goal may be served.
+struct Alternative {
+  Position position{0.0, 0.0};
+  std::optional<double> theta;  // radians, (-pi, pi]
+  double bias = 0.0;            // seconds, >= 0, added to the cost of choosing it
+  std::size_t number = 0;       // among those that were given
+};
+
+/// A goal of a robot (Robot::goal_at) that is served at one of several poses. The goal itself has the pose
+/// that is chosen.
+struct OpenGoal {
+  std::size_t goal = 0;            // number of the goal
+  std::vector<Alternative> poses;  // at least one
+  std::size_t chosen = 0;          // index in `poses`
+  bool is_settled = false;         // what the robot has done or is committed to decides
+
+  const Alternative& choice() const { return poses[chosen]; }
+};
+
+/// Chooses a pose, by its index, for the robot whose goal this is.
+void choose(Robot& robot, OpenGoal& open, std::size_t pose);
+
+/// Whether the robot stays at this goal, so that nobody else can.
+bool stays_at(const Robot& robot, std::size_t goal);
+
+/// Settles the open goals of a robot, ascending, that `actions`, which are contiguous from t = 0 in its
+/// start, serve: each where it is served first. So is the goal whose service is under way at their end. The
+/// one at which the robot stays is settled only with `also_last`, where they end. Goals that are settled stay
+/// as they are. Ends early if `stop` is met.
+void settle_by_actions(Robot& robot, std::vector<OpenGoal>& open, std::span<const Action> actions,
+                       bool also_last, const StopCondition& stop);
+
+}  // namespace fleetplan::core

@@ -1,0 +1,531 @@
+#include "core/travel/goal_choice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <utility>
+#include <variant>
+
+#include "core/geometry/segment.h"
+#include "core/geometry/tolerance.h"
+#include "core/model/itinerary.h"
+#include "core/model/radius_steps.h"
+#include "core/travel/arrivals.h"
+#include "core/travel/assignment.h"
+
+namespace fleetplan::core {
+namespace {
+
+/// Seconds: the cost of a pose that a robot without a way to it, or one that is parked there, makes useless,
+/// but which is better than none.
+constexpr double kUseless = 1e9;
+/// Seconds: the cost of leaving the pose to which the robot has been going. It is no reason to crowd others
+/// out.
+constexpr double kChangeOfMind = 1e6;
+/// How many of the goals that follow an open one count when a pose is chosen for it.
+constexpr std::size_t kGoalsAhead = 8;
+/// How often two last goals that overlap are told apart by forbidding one of them.
+constexpr int kMostConflicts = 64;
+
+/// When a robot that takes a pose would rest there, and when it would rest at the last goal before its next
+/// open one; seconds.
+struct Times {
+  double arrives = kForever;
+  double ends = kForever;
+};
+
+/// Returns the times of each place, by its poses; none if it is stopped.
+using TimesOf =
+    std::function<std::optional<std::vector<std::vector<Times>>>(const std::vector<OpenPlace>& places)>;
+
+/// Goals from `first` to the next open one that is not settled, or to the end of those with a pose; the first
+/// kGoalsAhead of them.
+std::vector<Goal> goals_until_open(const Robot& robot, const std::vector<OpenGoal>& open, std::size_t first) {
+  std::vector<Goal> goals;
+  const std::size_t end = std::min(robot.own_goal_count(), first + kGoalsAhead);
+  for (std::size_t k = first; k < end; ++k) {
+    const auto is_open = [&](const OpenGoal& goal) { return goal.goal == k && !goal.is_settled; };
+    if (std::any_of(open.begin(), open.end(), is_open)) break;
+    goals.push_back(robot.goal_at(k));
+  }
+  return goals;
+}
+
+/// The pose at which the previous plan of a robot ends, or its commitment, by its index; none if there are
+/// none, or if they end elsewhere.
+std::optional<std::size_t> pose_so_far(const Robot& robot, const OpenGoal& open) {
+  if (!robot.previous && robot.committed.empty()) return std::nullopt;
+  const bool goes_on = robot.previous && !robot.previous->empty();
+  const Pose end = goes_on ? robot.previous->back().to : robot.committed_end();
+  for (std::size_t k = 0; k < open.poses.size(); ++k) {
+    if (is_in_pose(end, {open.poses[k].position, open.poses[k].theta})) return k;
+  }
+  return std::nullopt;
+}
+
+/// Chooses poses with given times.
+class Chooser {
+ public:
+  Chooser(std::vector<Robot>& robots, OpenGoals& open, const TimesOf& times_of, const StopCondition& stop)
+      : robots_(robots), open_(open), times_of_(times_of), stop_(stop) {}
+
+  /// Returns the places that get no pose; none if it is stopped.
+  std::optional<std::vector<OpenPlace>> run() {
+    std::vector<std::size_t> next(robots_.size(), 0);
+    while (true) {
+      const std::vector<OpenPlace> places = next_places(next);
+      if (places.empty()) break;
+      if (stop_.met() || !choose_in_turn(places)) return std::nullopt;
+    }
+    return choose_last();
+  }
+
+ private:
+  OpenGoal& open_of(const OpenPlace& place) { return open_[place.robot][place.open]; }
+  Robot& robot_of(const OpenPlace& place) { return robots_[place.robot]; }
+  const Goal& goal_of(const OpenPlace& place) { return robot_of(place).goal_at(open_of(place).goal); }
+
+  /// The next open goal of each robot at which it does not stay.
+  std::vector<OpenPlace> next_places(std::vector<std::size_t>& next) {
+    // Bounded: the goals of all robots, each once in all.
+    std::vector<OpenPlace> places;
+    for (std::size_t robot = 0; robot < robots_.size(); ++robot) {
+      std::size_t& at = next[robot];
+      while (at < open_[robot].size() && open_[robot][at].is_settled) ++at;
+      if (at == open_[robot].size() || stays_at(robots_[robot], open_[robot][at].goal)) continue;
+      places.push_back({robot, at++});
+    }
+    return places;
+  }
+
+  /// One robot after the other, the one that ends first by the best of its poses first. Each waits where one
+  /// before it is served.
+  bool choose_in_turn(const std::vector<OpenPlace>& places) {
+    const auto times = times_of_(places);
+    if (!times) return false;
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      double best = kForever;
+      for (const Times& time : (*times)[k]) best = std::min(best, time.ends);
+      order.emplace_back(best, k);
+    }
+    std::sort(order.begin(), order.end());
+    for (const auto& [ends, k] : order) {
+      if (stop_.met()) return false;
+      take_earliest(places[k], (*times)[k]);
+    }
+    return true;
+  }
+
+  void take_earliest(const OpenPlace& place, const std::vector<Times>& times) {
+    OpenGoal& open = open_of(place);
+    const auto key = [&](std::size_t pose) { return key_of(open.poses[pose].position); };
+    const auto wait = [&](std::size_t pose) {
+      const auto free = free_from_.find(key(pose));
+      return free == free_from_.end() ? 0.0 : std::max(0.0, free->second - times[pose].arrives);
+    };
+    std::size_t best = 0;
+    double least = kForever;
+    for (std::size_t pose = 0; pose < open.poses.size(); ++pose) {
+      const double cost = std::min(times[pose].ends, kUseless) + open.poses[pose].bias +
+                          (times[pose].arrives < kForever ? wait(pose) : 0.0);
+      if (!(cost < least)) continue;
+      least = cost;
+      best = pose;
+    }
+    choose(robot_of(place), open, best);
+    if (times[best].arrives == kForever) return;
+    const Goal& goal = goal_of(place);
+    double& free = free_from_[key(best)];
+    free = std::max({times[best].arrives, free, goal.not_before}) + goal.service;
+  }
+
+  /// All at once, for robots that stay.
+  std::optional<std::vector<OpenPlace>> choose_last() {
+    for (std::size_t robot = 0; robot < robots_.size(); ++robot) {
+      const std::vector<OpenGoal>& open = open_[robot];
+      if (open.empty() || open.back().is_settled || !stays_at(robots_[robot], open.back().goal)) continue;
+      last_.push_back({robot, open.size() - 1});
+    }
+    if (last_.empty()) return std::vector<OpenPlace>();
+    const auto times = times_of_(last_);
+    if (!times || !make_costs(*times)) return std::nullopt;
+    for (int round = 0; round < kMostConflicts; ++round) {
+      auto columns = assign(costs_, std::vector<std::int64_t>(last_.size(), 1), stop_);
+      if (!columns) return std::nullopt;
+      columns_of_ = std::move(*columns);
+      if (!forbid_overlap()) break;
+    }
+    std::vector<OpenPlace> without;
+    for (std::size_t row = 0; row < last_.size(); ++row) {
+      if (columns_of_[row]) {
+        choose(robot_of(last_[row]), open_of(last_[row]), pose_at_[row][*columns_of_[row]]);
+      } else {
+        without.push_back(last_[row]);
+      }
+    }
+    return without;
+  }
+
+  using Key = std::pair<double, double>;
+  static Key key_of(const Position& position) { return {position.x(), position.y()}; }
+
+  /// The costs of all places in all positions that any robot may take. False if it is stopped.
+  bool make_costs(const std::vector<std::vector<Times>>& times) {
+    find_others();
+    std::map<Key, std::size_t> column_of;
+    for (const OpenPlace& place : last_) {
+      for (const Alternative& pose : open_of(place).poses) {
+        if (column_of.emplace(key_of(pose.position), positions_.size()).second) {
+          positions_.push_back(pose.position);
+        }
+      }
+    }
+    for (std::size_t row = 0; row < last_.size(); ++row) {
+      const OpenGoal& open = open_of(last_[row]);
+      const auto so_far = pose_so_far(robot_of(last_[row]), open);
+      costs_.emplace_back(positions_.size(), kForever);
+      pose_at_.emplace_back(positions_.size(), 0);
+      for (std::size_t pose = 0; pose < open.poses.size(); ++pose) {
+        if (stop_.met()) return false;
+        const std::size_t column = column_of.at(key_of(open.poses[pose].position));
+        const double seconds = std::min(times[row][pose].ends, kUseless) + open.poses[pose].bias;
+        const double cost = robot_of(last_[row]).weight * seconds +
+                            (so_far && *so_far != pose ? kChangeOfMind : 0.0) +
+                            cost_of_others(last_[row], positions_[column]);
+        if (!(cost < costs_[row][column])) continue;
+        costs_[row][column] = cost;
+        pose_at_[row][column] = pose;
+      }
+    }
+    return true;
+  }
+
+  /// A robot that stays elsewhere than at an open goal.
+  struct Other {
+    std::size_t robot = 0;
+    Position position{0.0, 0.0};
+    double radius = 0.0;     // metres
+    bool is_parked = false;  // and has no goal
+  };
+
+  void find_others() {
+    std::vector<bool> is_open(robots_.size(), false);
+    for (const OpenPlace& place : last_) is_open[place.robot] = true;
+    for (std::size_t k = 0; k < robots_.size(); ++k) {
+      const Robot& robot = robots_[k];
+      if (is_open[k] || (robot.yields() && !robot.invalid)) continue;
+      const bool is_parked = !robot.goal || robot.invalid;
+      others_.push_back({k, is_parked ? robot.committed_end().position : robot.goal->position,
+                         last_radius(robot), is_parked});
+    }
+  }
+
+  /// Of a position, because of the others: kForever at a last goal, kUseless where one is parked.
+  double cost_of_others(const OpenPlace& place, const Position& position) {
+    const double radius = last_radius(robot_of(place));
+    double cost = 0.0;
+    for (const Other& other : others_) {
+      if (other.robot == place.robot || !overlap(position, other.position, radius + other.radius)) continue;
+      if (!other.is_parked) return kForever;
+      cost = kUseless;
+    }
+    return cost;
+  }
+
+  static bool overlap(const Position& a, const Position& b, double sum) {
+    const double allowed = sum - kContactTolerance;
+    return allowed > 0.0 && (a - b).squaredNorm() < allowed * allowed;
+  }
+
+  /// Forbids one of two positions that are taken and overlap. Returns whether there are such two.
+  bool forbid_overlap() {
+    for (std::size_t row = 0; row < last_.size(); ++row) {
+      if (stop_.met()) return false;
+      for (std::size_t other = 0; other < row && columns_of_[row]; ++other) {
+        if (!columns_of_[other]) continue;
+        const double sum = last_radius(robot_of(last_[row])) + last_radius(robot_of(last_[other]));
+        if (!overlap(positions_[*columns_of_[row]], positions_[*columns_of_[other]], sum)) continue;
+        // The one that loses less, by its next best position.
+        const std::size_t loser = loss(row) < loss(other) ? row : other;
+        costs_[loser][*columns_of_[loser]] = kForever;
+        return true;
+      }
+    }
+    return false;
+  }
+
+  double loss(std::size_t row) const {
+    double next_best = kForever;
+    for (std::size_t column = 0; column < positions_.size(); ++column) {
+      if (column != *columns_of_[row]) next_best = std::min(next_best, costs_[row][column]);
+    }
+    return next_best - costs_[row][*columns_of_[row]];
+  }
+
+  std::vector<Robot>& robots_;
+  OpenGoals& open_;
+  const TimesOf& times_of_;
+  const StopCondition& stop_;
+  std::map<Key, double> free_from_;  // by position, seconds: after those that are served there before
+  // Of robots that stay:
+  std::vector<OpenPlace> last_;
+  std::vector<Other> others_;
+  std::vector<Position> positions_;
+  std::vector<std::vector<double>> costs_;              // by place and position
+  std::vector<std::vector<std::size_t>> pose_at_;       // by place and position
+  std::vector<std::optional<std::size_t>> columns_of_;  // by place: index of the position
+};
+
+/// The way in straight lines, without rotations, from where the plan of a robot begins.
+std::vector<Times> straight_times(const Robot& robot, const std::vector<OpenGoal>& open, std::size_t index) {
+  const std::size_t goal = open[index].goal;
+  const Itinerary itinerary = itinerary_of(robot);
+  Position at = itinerary.pose.position;
+  double t = itinerary.t_begin;
+  const auto serve = [&](const Goal& next) {
+    t += (next.position - at).norm() / robot.linear_speed;
+    at = next.position;
+    t = std::max(t, next.not_before) + next.service;
+  };
+  for (std::size_t k = itinerary.first_goal; k < goal; ++k) serve(robot.goal_at(k));
+  const Position before = at;
+  const double leaves = t;
+  const std::vector<Goal> after = goals_until_open(robot, open, goal + 1);
+  // Bounded: a hundred poses, and kGoalsAhead.
+  std::vector<Times> times;
+  for (const Alternative& pose : open[index].poses) {
+    const double arrives = leaves + (pose.position - before).norm() / robot.linear_speed;
+    at = pose.position;
+    t = std::max(arrives, robot.goal_at(goal).not_before) + robot.goal_at(goal).service;
+    for (const Goal& next : after) serve(next);
+    times.push_back({arrives, after.empty() ? arrives : t});
+  }
+  return times;
+}
+
+/// The robot with the goals before this one only. One that has goals does not stand for ever after them.
+Robot until_goal(const Robot& robot, std::size_t goal) {
+  Robot until = robot;
+  until.previous.reset();
+  until.goal.reset();
+  until.via.clear();
+  for (std::size_t k = 0; k < goal; ++k) until.via.push_back(robot.goal_at(k));
+  if (goal > 0) {
+    until.goal = until.via.back();
+    until.via.pop_back();
+  }
+  if (robot.goal) until.let_yield();
+  return until;
+}
+
+/// The times of robots that are alone on the map.
+class TimesAlone {
+ public:
+  TimesAlone(const Problem& problem, const PlanOptions& options, const std::vector<Robot>& robots,
+             const OpenGoals& open, const StopCondition& stop, Executor& executor)
+      : problem_(problem),
+        options_(options),
+        robots_(robots),
+        open_(open),
+        stop_(stop),
+        executor_(executor) {}
+
+  std::optional<std::vector<std::vector<Times>>> operator()(const std::vector<OpenPlace>& places) const {
+    const auto alone = problem_until(places);
+    if (!alone) return std::nullopt;
+    std::vector<Task> tasks;
+    for (const OpenPlace& place : places) {
+      if (stop_.met()) return std::nullopt;
+      add_tasks(place, tasks);
+    }
+    const auto arrivals = core::arrivals(*alone, options_, tasks, stop_, executor_, {});
+    if (!arrivals) return std::nullopt;
+    std::vector<std::vector<Times>> times;
+    auto next = arrivals->begin();
+    for (const OpenPlace& place : places) {
+      std::vector<Times>& of_place = times.emplace_back();
+      const bool goes_on = !goals_after(place).empty();
+      for (std::size_t pose = 0; pose < poses(place).size(); ++pose) {
+        const double arrives = (next++)->front();
+        of_place.push_back({arrives, goes_on ? (next++)->front() : arrives});
+      }
+    }
+    return times;
+  }
+
+ private:
+  const std::vector<Alternative>& poses(const OpenPlace& place) const {
+    return open_[place.robot][place.open].poses;
+  }
+  std::vector<Goal> goals_after(const OpenPlace& place) const {
+    const std::vector<OpenGoal>& open = open_[place.robot];
+    return goals_until_open(robots_[place.robot], open, open[place.open].goal + 1);
+  }
+
+  /// Each pose is a task, and a second one with the goals that follow it, if there are any.
+  void add_tasks(const OpenPlace& place, std::vector<Task>& tasks) const {
+    const std::vector<Goal> after = goals_after(place);
+    for (const Alternative& pose : poses(place)) {
+      Goal goal = robots_[place.robot].goal_at(open_[place.robot][place.open].goal);
+      goal.position = pose.position;
+      goal.theta = pose.theta;
+      tasks.push_back({{goal}, {place.robot}});
+      if (after.empty()) continue;
+      tasks.push_back(tasks.back());
+      tasks.back().goals.insert(tasks.back().goals.end(), after.begin(), after.end());
+    }
+  }
+
+  /// The robots with the goals before these places.
+  std::optional<Problem> problem_until(const std::vector<OpenPlace>& places) const {
+    std::vector<Robot> until;
+    for (const Robot& robot : robots_) {
+      if (stop_.met()) return std::nullopt;
+      until.push_back(until_goal(robot, 0));
+    }
+    for (const OpenPlace& place : places) {
+      until[place.robot] = until_goal(robots_[place.robot], open_[place.robot][place.open].goal);
+    }
+    ProblemConditions conditions = conditions_of(options_);
+    conditions.zones = problem_.zones();
+    conditions.one_at_a_time = true;
+    auto made = Problem::create(problem_.map(), std::move(until), std::move(conditions), stop_);
+    auto* valid = std::get_if<Problem>(&made);
+    return valid != nullptr ? std::optional(std::move(*valid)) : std::nullopt;
+  }
+
+  const Problem& problem_;
+  const PlanOptions& options_;
+  const std::vector<Robot>& robots_;
+  const OpenGoals& open_;
+  const StopCondition& stop_;
+  Executor& executor_;
+};
+
+/// The zones for robots of which each stands for one of others, see leave_out_blocked_poses().
+std::vector<Zone> zones_of(const std::vector<Zone>& zones, const std::vector<std::size_t>& stands_for,
+                           const StopCondition& stop) {
+  std::vector<Zone> all = zones;
+  for (Zone& zone : all) {
+    if (zone.robots.empty()) continue;
+    if (stop.met()) break;
+    const std::vector<std::size_t> named = std::exchange(zone.robots, {});
+    for (std::size_t k = 0; k < stands_for.size(); ++k) {
+      if (std::binary_search(named.begin(), named.end(), stands_for[k])) zone.robots.push_back(k);
+    }
+    if (zone.robots.empty()) zone.robots.push_back(stands_for.size());  // nobody
+  }
+  return all;
+}
+
+}  // namespace
+
+ProblemConditions conditions_of(const PlanOptions& options) {
+  ProblemConditions conditions;
+  conditions.pair_overlap = std::max(0.0, options.start_overlap - 2.0 * options.inflation);
+  conditions.wall_overlap = std::max(0.0, options.start_overlap - options.inflation);
+  conditions.inflation = options.inflation;
+  return conditions;
+}
+
+std::vector<OpenPlace> leave_out_blocked_poses(const std::shared_ptr<const StaticMap>& map,
+                                               const std::vector<Zone>& zones, std::vector<Robot>& robots,
+                                               OpenGoals& open, const StopCondition& stop) {
+  std::vector<Robot> disks;  // one for each pose
+  std::vector<std::size_t> stands_for;
+  for (std::size_t robot = 0; robot < robots.size(); ++robot) {
+    if (open[robot].empty()) continue;
+    const std::vector<double> radii = radii_of(robots[robot]);
+    for (const OpenGoal& goal : open[robot]) {
+      if (stop.met()) return {};
+      for (const Alternative& pose : goal.poses) {
+        Robot& disk = disks.emplace_back();
+        disk.radius = std::max(radii[goal.goal], radii[goal.goal + 1]);
+        disk.linear_speed = disk.angular_speed = 1.0;
+        disk.start = {pose.position, 0.0};
+        stands_for.push_back(robot);
+      }
+    }
+  }
+  ProblemConditions conditions;
+  conditions.zones = zones_of(zones, stands_for, stop);
+  conditions.one_at_a_time = true;
+  conditions.list_faults_of_every_robot = true;
+  const std::size_t count = disks.size();
+  const auto made = Problem::create(map, std::move(disks), std::move(conditions), stop);
+  const auto* faults = std::get_if<ProblemFaults>(&made);
+  if (faults == nullptr || !faults->finished) return {};
+  std::vector<bool> is_blocked(count, false);
+  for (const ProblemFault& fault : faults->listed) is_blocked[fault.robot] = true;
+  std::vector<OpenPlace> without;
+  std::size_t next = 0;
+  for (std::size_t robot = 0; robot < robots.size(); ++robot) {
+    for (std::size_t k = 0; k < open[robot].size(); ++k) {
+      OpenGoal& goal = open[robot][k];
+      std::vector<Alternative> left;
+      for (const Alternative& pose : goal.poses) {
+        if (!is_blocked[next++]) left.push_back(pose);
+      }
+      if (left.empty() && !goal.is_settled) without.push_back({robot, k});
+      if (left.empty() || goal.is_settled) continue;
+      goal.poses = std::move(left);
+      choose(robots[robot], goal, 0);
+    }
+  }
+  return without;
+}
+
+std::vector<OpenPlace> choose_by_distance(std::vector<Robot>& robots, OpenGoals& open,
+                                          const StopCondition& stop) {
+  const TimesOf times_of = [&](const std::vector<OpenPlace>& places) {
+    std::vector<std::vector<Times>> times;
+    for (const OpenPlace& place : places) {
+      if (stop.met()) return std::optional<std::vector<std::vector<Times>>>();
+      times.push_back(straight_times(robots[place.robot], open[place.robot], place.open));
+    }
+    return std::optional(std::move(times));
+  };
+  return Chooser(robots, open, times_of, stop).run().value_or(std::vector<OpenPlace>());
+}
+
+std::optional<Problem> choose_by_arrival(const Problem& problem, const PlanOptions& options,
+                                         std::vector<Robot>& robots, OpenGoals& open, bool& finished,
+                                         const StopCondition& stop, Executor& executor) {
+  std::vector<Robot> chosen = robots;
+  OpenGoals choices = open;
+  const TimesAlone times_alone(problem, options, chosen, choices, stop, executor);
+  const auto without = Chooser(chosen, choices, times_alone, stop).run();
+  finished = without.has_value();
+  if (!without || !without->empty()) return std::nullopt;
+  const auto is_same = [](const OpenGoal& a, const OpenGoal& b) { return a.chosen == b.chosen; };
+  const auto are_same = [&](const std::vector<OpenGoal>& a, const std::vector<OpenGoal>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), is_same);
+  };
+  if (std::equal(open.begin(), open.end(), choices.begin(), are_same)) return std::nullopt;
+  ProblemConditions conditions = conditions_of(options);
+  conditions.zones = problem.zones();
+  conditions.obstacles = problem.obstacles();
+  auto made = Problem::create(problem.map(), chosen, std::move(conditions), stop);
+  auto* valid = std::get_if<Problem>(&made);
+  if (valid == nullptr) {
+    finished = std::get<ProblemFaults>(made).finished;
+    return std::nullopt;
+  }
+  robots = std::move(chosen);
+  open = std::move(choices);
+  return std::move(*valid);
+}
+
+bool give_up_poses(std::vector<OpenGoal>& open) {
+  bool has_others = false;
+  for (OpenGoal& goal : open) {
+    if (goal.is_settled || goal.poses.size() < 2) continue;
+    goal.poses[goal.chosen].bias += kUseless;
+    has_others = true;
+  }
+  return has_others;
+}
+
+}  // namespace fleetplan::core

@@ -1,0 +1,61 @@
+#pragma once
+
+// Which poses robots take whose goals may be served at one of several ones.
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/map/static_map.h"
+#include "core/model/open_goal.h"
+#include "core/model/plan_options.h"
+#include "core/model/problem.h"
+#include "core/model/robot.h"
+#include "core/model/zone.h"
+#include "core/runtime/executor.h"
+#include "core/runtime/stop_condition.h"
+
+namespace fleetplan::core {
+
+/// By robot, ascending by goal.
+using OpenGoals = std::vector<std::vector<OpenGoal>>;
+
+/// A robot and one of its open goals, as an index into its list.
+struct OpenPlace {
+  std::size_t robot = 0;
+  std::size_t open = 0;
+};
+
+/// The conditions of a problem that follow from its options: margins, without obstacles and zones.
+ProblemConditions conditions_of(const PlanOptions& options);
+
+/// Leaves out the poses at which the disk of the robot overlaps an obstacle or a blocked zone. A goal that
+/// would have none keeps them all, and is returned. Settled goals stay as they are. Nothing is left out if
+/// `stop` is met first.
+std::vector<OpenPlace> leave_out_blocked_poses(const std::shared_ptr<const StaticMap>& map,
+                                               const std::vector<Zone>& zones, std::vector<Robot>& robots,
+                                               OpenGoals& open, const StopCondition& stop);
+
+/// Chooses poses for the goals that are not settled as if there were nothing but straight lines. Robots that
+/// stay at their last goals get poses where they do not overlap, those of all robots the nearest ones in sum.
+/// Returns the goals for which there is no such pose.
+std::vector<OpenPlace> choose_by_distance(std::vector<Robot>& robots, OpenGoals& open,
+                                          const StopCondition& stop);
+
+/// Chooses poses again by when the robots would arrive, each alone on the map (see arrivals()): for last
+/// goals those of the least sum of weighted arrivals and biases; for others one robot after the other, which
+/// waits for those before it. `robots` and `open` have the choice of choose_by_distance(), and `problem` is
+/// made of these robots. Returns the problem with these choices; none if all choices stay, or if `stop` is
+/// met first: then nothing has changed. `finished` is set to whether it was not.
+std::optional<Problem> choose_by_arrival(const Problem& problem, const PlanOptions& options,
+                                         std::vector<Robot>& robots, OpenGoals& open, bool& finished,
+                                         const StopCondition& stop, Executor& executor);
+
+/// Makes the poses that a robot has the last ones to be chosen again, where it has others. Returns whether it
+/// has any.
+bool give_up_poses(std::vector<OpenGoal>& open);
+
+}  // namespace fleetplan::core
