@@ -70,11 +70,11 @@ const char* impossible(const core::Action& action, const core::Robot& robot) {
 /// `speed`: at the end of the action before; none: unknown.
 const char* unfit(const core::Action& action, const core::Robot& robot, std::optional<double> speed,
                   bool may_be_measured) {
-  const bool turns = action.type == Type::rotate;
-  const double amount = turns ? turn(action.from, action.to) : distance(action.from, action.to);
-  const core::Inertia inertia = turns ? robot.angular_inertia() : robot.linear_inertia();
+  const double amount = core::amount_of(action);
+  const core::Inertia inertia = robot.inertia_of(action.type);
   if (!action.profile) {
-    const bool has_to = !may_be_measured && action.type != Type::wait && inertia.any() && amount > kTolerance;
+    const bool has_to =
+        !may_be_measured && action.type != Type::wait && inertia.is_limited && amount > kTolerance;
     if (has_to) return "has no profile, but the robot's acceleration is limited";
     const bool is_measured = action.type == Type::translate;
     return speed.value_or(0.0) > kTolerance && !is_measured ? "begins at rest, unlike the one before ends"
@@ -85,7 +85,8 @@ const char* unfit(const core::Action& action, const core::Robot& robot, std::opt
   if (!(profile.cruise > 0.0) || profile.cruise < std::max(profile.start, profile.end)) {
     return "has a profile whose cruise speed is 0, or less than start or end";
   }
-  if (profile.cruise > (turns ? robot.angular_speed : robot.linear_speed) + kTolerance) {
+  const double greatest = action.type == Type::rotate ? robot.angular_speed : robot.linear_speed;
+  if (profile.cruise > greatest + kTolerance) {
     return "has a profile that is faster than the robot";
   }
   if (speed && std::abs(profile.start - *speed) > kTolerance) {
@@ -127,8 +128,7 @@ std::vector<core::Action> read_actions(const std::vector<Action>& actions, const
     if (action.type != Type::rotate) action.to.theta = action.from.theta;
     if (const char* why = impossible(action, robot)) return refuse(why);
     if (action.profile) {
-      action.profile->inertia =
-          action.type == Type::rotate ? robot.angular_inertia() : robot.linear_inertia();
+      action.profile->inertia = robot.inertia_of(action.type);
     }
     if (const char* why = unfit(action, robot, speed, k < measured)) return refuse(why);
     speed.reset();

@@ -1,19 +1,10 @@
 #include "core/execution/drive.h"
 
 #include <algorithm>
-#include <cmath>
-
-#include "core/geometry/angle.h"
 
 namespace fleetplan::core {
 
 namespace {
-
-/// Metres of a translation, radians of a rotation.
-double extent(const Action& action) {
-  return action.type == Action::Type::rotate ? angle_between(action.from.theta, action.to.theta)
-                                             : (action.to.position - action.from.position).norm();
-}
 
 /// Times that differ by less are the same, seconds: no piece is divided into shorter ones.
 constexpr double kSameMoment = 1e-8;
@@ -33,7 +24,7 @@ std::size_t end_of_drive(Actions actions, std::size_t first) {
 }
 
 double share_covered(const Action& action, double elapsed) {
-  const double whole = action.profile ? extent(action) : 0.0;
+  const double whole = action.profile ? amount_of(action) : 0.0;
   if (whole <= 0.0) return elapsed;
   const double duration = action.t_end - action.t_start;
   return std::clamp(covered_after(*action.profile, duration, elapsed * duration) / whole, 0.0, 1.0);
@@ -65,7 +56,7 @@ Drive::Drive(Actions actions, std::size_t first, const std::vector<double>& fact
     const auto factor = [&](std::size_t action) {
       return factors.size() > 1 ? factors[action - first] : factors.front();
     };
-    LimitedPart part{extent(actions[k]), profile.cruise * factor(k)};
+    LimitedPart part{amount_of(actions[k]), profile.cruise * factor(k)};
     if (k + 1 < end) {
       part.end_limit = std::min(profile.end * factor(k), actions[k + 1].profile->start * factor(k + 1));
     }

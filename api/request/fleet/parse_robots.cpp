@@ -345,7 +345,7 @@ class RobotReader {
     const JsonReader member = read.start.find("speed");
     const auto speed = member.number(kMeasuredSpeed);
     const core::Robot& robot = read.robot;
-    if (!speed || !robot.linear_inertia().any()) return;
+    if (!speed || !robot.linear_inertia().is_limited) return;
     double begins = 0.0;
     if (!robot.committed.empty() && robot.committed.front().type == core::Action::Type::translate) {
       const core::Action& first = robot.committed.front();

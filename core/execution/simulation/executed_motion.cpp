@@ -192,10 +192,7 @@ Change change_of(double ramp) {
 /// none if there is none.
 std::optional<SpeedProfile> profile_of(const Action& motion, double ramp, const Inertia& inertia) {
   const double duration = motion.t_end - motion.t_start;
-  const double amount = motion.type == Action::Type::rotate
-                            ? angle_between(motion.from.theta, motion.to.theta)
-                            : (motion.to.position - motion.from.position).norm();
-  const double mean = amount / duration;
+  const double mean = amount_of(motion) / duration;
   const Change change = change_of(ramp);
   double half = ramp * mean;  // of the difference of speeds
   if (change != Change::stays) {

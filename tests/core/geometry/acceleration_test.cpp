@@ -15,7 +15,7 @@ namespace fleetplan::core {
 namespace TEST_FILE {
 
 constexpr std::uint64_t kSeed = 20261126;
-constexpr int kCases = support::kSanitized ? 30 : 4000;
+constexpr int kCases = support::kSanitized ? 400 : 4000;
 /// Metres: what the steps of an integration may miss of a least distance.
 constexpr double kSampling = 1e-4;
 
