@@ -86,7 +86,7 @@ const BEYOND_SCHEMA = {
   // speeds that do not fit the action, the robot or their neighbours
   profile: anyOf(
     "(/robots/\\d+/(committed|previous)|/plans/\\d+/actions)/\\d+(/profile(/start)?)?",
-    "/robots/\\d+/(committed|previous)",
+    "/robots/\\d+/(committed|previous|start/speed)",
   ),
   committed_collision: /^\/robots\/\d+\/committed\/\d+$/,
   committed_in_zone: /^\/robots\/\d+\/committed\/\d+$/,

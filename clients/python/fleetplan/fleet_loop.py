@@ -1,13 +1,14 @@
 """The loop of a fleet manager: plan, execute, advance (docs/fleet_loop.md)."""
 
 import functools
+import math
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import Future
 from dataclasses import dataclass
 
 from fleetplan.client import Client
-from fleetplan.course import Place
+from fleetplan.course import Place, limits_of
 from fleetplan.errors import FleetplanError, RequestRefused
 from fleetplan.executor import Executor, Instruction, Report
 from fleetplan.planning_loop import PlanningLoop
@@ -51,7 +52,8 @@ class FleetLoop(PlanningLoop):
                  reaction: float = 0.0, near: float = 0.01) -> None:
         """`period`: seconds from plan to plan; a plan that takes longer delays the next one. `commit`: what robots do
         within so many seconds is decided before each plan; by default, the time budget, half a second, and what the
-        way to brake takes. `change` is called with each request before it is planned, in the thread that plans, to
+        way to brake takes; if the request limits accelerations, the move under way, as every commitment ends at rest.
+        `change` is called with each request before it is planned, in the thread that plans, to
         add obstacles, zones or robots.
         `clock`: seconds. `background`: plans are made in a thread, while robots go on; without it, `step` waits for
         them, which simulations want; `latency` is then how long plans take on their clock, seconds. The others are
@@ -60,7 +62,7 @@ class FleetLoop(PlanningLoop):
         self.answer: PlanAnswer | None = None  # to the request
         self._latency = latency
         self._commit = commit
-        if commit is None:
+        if commit is None and not _accelerates(request):
             self._commit = self.request["options"]["time_budget_ms"] / 1000.0 + _TRANSFER + _braking_time(request, deceleration)
         self._pose_tolerance, self._deceleration = pose_tolerance, deceleration
         self._reaction, self._near = reaction, near
@@ -185,6 +187,12 @@ class FleetLoop(PlanningLoop):
             if goals_at_fault or self._executor is None:
                 raise error
         self._goals = {**given, **self._goals}
+
+
+def _accelerates(request: PlanRequest) -> bool:
+    """Whether robots of the request need time to start or to stop."""
+    limits = (limits_of(request, robot) for robot in request["robots"])
+    return any(not math.isinf(one.rise) or not math.isinf(one.fall) for one in limits)
 
 
 def _braking_time(request: PlanRequest, deceleration: float | Mapping[str, float] | None) -> float:

@@ -51,8 +51,9 @@ class Day:
         self.tasks = Tasks(warehouse, request, per_hour, seed)
         self.disturbances = Disturbances(rates, seed)
         self.watch = Watch(request)
-        self.loop = FleetLoop(client, request, clock=self.fleet.clock, background=False, latency=latency, commit=COMMIT,
-                              change=self.disturbances.change, deceleration=BRAKES, reaction=STEP)
+        self.loop = FleetLoop(client, request, clock=self.fleet.clock, background=False, latency=latency,
+                              commit=None if profiles else COMMIT, change=self.disturbances.change,
+                              deceleration=BRAKES, reaction=STEP)
         self.rounds, self.failures, self.overran, self.lost = collections.Counter(), [], {}, []
         self.reports, self.stuck, self.wall_seconds = self.fleet.reports(), 0, 0.0
         self.offered_until = 0.0  # seconds
