@@ -34,12 +34,15 @@ class Fails:
 class Day:
     """Robots that go to their goal, and then again and again to their start, for a service, and back to their goal."""
 
-    def __init__(self, client, robots, fleet=None, **how):
+    def __init__(self, client, robots, fleet=None, limits=None, commit=1.4, **how):
+        """`limits`: of accelerations."""
         self.request = json.loads((PROJECT / "tests/scenarios/warehouse.json").read_text())
         self.request["robots"] = self.request["robots"][:robots]
         self.request["options"] = {"time_budget_ms": 20000}  # a busy machine changes nothing
+        if limits:
+            self.request["robot_defaults"] = limits
         self.fleet = SimulatedFleet(self.request, **(fleet or {}))
-        self.loop = FleetLoop(client, self.request, clock=self.fleet.clock, background=False, commit=1.4, **how)
+        self.loop = FleetLoop(client, self.request, clock=self.fleet.clock, background=False, commit=commit, **how)
         self.trips = {robot["id"]: [{**robot["start"], "service": 1.5}, robot["goal"]] for robot in self.request["robots"]}
         self.arrived, self.failures, self.overran, self.statuses = [], [], set(), []
 
@@ -75,6 +78,14 @@ class Loops(unittest.TestCase):
         self.assertGreaterEqual(len(day.statuses), 39)
         self.assertEqual(set(day.statuses), {"solved"})
         self.assertGreaterEqual(len(day.arrived), 12)
+
+    def test_robots_that_accelerate_serve_their_goals_and_meet_nobody(self):
+        limits = {"linear_acceleration": 0.5, "linear_deceleration": 0.8}
+        day = Day(self.client, 12, {"seed": 3, "speed": (0.8, 1.0), "noise": 0.002}, limits, commit=None, reaction=0.1)
+        day.run(60.0)
+        self.assert_nobody_was_met(day)
+        self.assertEqual(day.failures, [])
+        self.assertGreaterEqual(len(day.arrived), 8)
 
     def test_robots_that_are_late_and_stop_serve_their_goals_and_meet_nobody(self):
         day = Day(self.client, 25, {"seed": 1, "speed": (0.6, 1.0), "stops_per_hour": 60.0, "noise": 0.002}).run(50.0)
