@@ -74,6 +74,7 @@ class ProgressBuilder {
   }
   /// Moves as a drive does, which may lead through several actions.
   void drive(const std::vector<DrivenPiece>& pieces) {
+    // Bounded: the pieces, and each action once.
     for (const DrivenPiece& piece : pieces) {
       while (action_ < piece.action) {
         go_on(0.0, 1.0);
