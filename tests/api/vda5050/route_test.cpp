@@ -53,7 +53,7 @@ TEST(Route, HasANodeWhereverTheRobotStops) {
 
 TEST(Route, HasTheGreatestSpeedsOfProfiles) {
   core::Robot robot = make_robot();
-  robot.linear_acceleration = 0.5;
+  robot.linear_acceleration = robot.linear_deceleration = 0.5;
   robot.angular_acceleration = 1.0;
   auto corner = plan(robot).translate_to(4.5, 0.5).rotate_to(kRight).translate_to(4.5, 2.5).build();
   double t = 0.0;
@@ -81,7 +81,7 @@ TEST(Route, HasTheGreatestSpeedsOfProfiles) {
 
 TEST(Gates, OfProfilesAreMovedByTime) {
   core::Robot robot = make_robot();
-  robot.linear_acceleration = 0.5;
+  robot.linear_acceleration = robot.linear_deceleration = 0.5;
   auto way = plan(robot).translate_to(4.5, 0.5).build();
   way.actions[0].profile = core::fastest_profile(4.0, 1.0, robot.linear_inertia());
   way.actions[0].t_end = 6.0;
