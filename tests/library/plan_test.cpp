@@ -95,7 +95,14 @@ TEST(PublicPlan, WithProfilesIsVerifiedAndCanBeCommitted) {
   EXPECT_EQ(second.status, Status::solved);
   EXPECT_TRUE(second.verified);
   EXPECT_DOUBLE_EQ(second.objectives.flowtime, first.objectives.flowtime);
-  ASSERT_TRUE(second.plans[0].actions.front().profile.has_value());
+  const std::vector<Action>& again = second.plans[0].actions;
+  ASSERT_EQ(again.size(), first.plans[0].actions.size());
+  for (std::size_t k = 0; k < again.size(); ++k) {
+    EXPECT_EQ(again[k].profile.has_value(), again[k].type != Action::Type::wait) << k;
+    if (again[k].type == Action::Type::translate) {
+      EXPECT_EQ(again[k].profile->deceleration, 0.5);
+    }
+  }
 }
 
 TEST(PublicPlan, GoesOnFromWhatIsCommittedAndKeepsThePreviousPlan) {
