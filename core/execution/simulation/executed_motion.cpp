@@ -214,7 +214,8 @@ class ActionJoiner {
   void add(const Action& planned, const DisturbedPath& path, const ExecutionKnot& from,
            const ExecutionKnot& to) {
     const bool moves = planned.type != Action::Type::wait && from.fraction != to.fraction;
-    if (!moves && from.t == to.t) return;
+    if (from.t == to.t && (!moves || planned.profile))
+      return;  // a drive may have pieces as short as rounding
     const bool waits_on = !moves && !executed_.empty() && executed_.back().type == Action::Type::wait &&
                           executed_.back().goal == planned.goal;
     if (waits_on) {
