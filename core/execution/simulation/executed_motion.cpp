@@ -179,6 +179,9 @@ namespace {
 /// Speeds that differ by less are the same (metres or radians per second).
 constexpr double kSameSpeed = 1e-6;
 
+/// Seconds: drives may have pieces as short as rounding, which are left out.
+constexpr double kNoTime = 1e-9;
+
 /// How the speed changes in an action, in the order of a profile.
 enum class Change { rises, stays, falls };
 
@@ -214,8 +217,8 @@ class ActionJoiner {
   void add(const Action& planned, const DisturbedPath& path, const ExecutionKnot& from,
            const ExecutionKnot& to) {
     const bool moves = planned.type != Action::Type::wait && from.fraction != to.fraction;
-    if (from.t == to.t && (!moves || planned.profile))
-      return;  // a drive may have pieces as short as rounding
+    if (!moves && from.t == to.t) return;
+    if (planned.profile && to.t - from.t < kNoTime) return;
     const bool waits_on = !moves && !executed_.empty() && executed_.back().type == Action::Type::wait &&
                           executed_.back().goal == planned.goal;
     if (waits_on) {
