@@ -188,7 +188,9 @@ void write_goals_put_off(JsonWriter& json, const core::PostponedGoals& goals, co
     begin_visit_without_times(json, goals.first + k);
     json.member("reason", k == 0 ? "zone_closed" : "goal_before");
     if (k == 0) json.member("zone", verified.problem.zones()[goals.zone].id);
-    if (choice_of(received, goals.first + k)) json.key("choice").json("null");
+    if (const auto choice = choice_of(received, goals.first + k)) {
+      k == 0 ? json.member("choice", *choice) : json.key("choice").json("null");
+    }
     end_visit(json, goals.first + k, received.goal_texts);
   }
 }

@@ -23,18 +23,6 @@ constexpr std::array<std::string_view, 5> kTaskMembers{"id", "goals", "robots", 
 /// Weights that differ by less count the same where there are too few robots.
 constexpr double kSameWeight = 1e-6;
 
-/// Arrivals are those at given poses. `owner`: a task or a robot.
-void reject_any_of(const JsonReader& owner) {
-  const auto reject = [](const JsonReader& goal) {
-    if (const JsonReader any_of = goal.find("any_of")) {
-      any_of.fault(fault::kUnknownKey,
-                   "any_of is for POST /v1/plan; for an assignment, give each goal a pose.");
-    }
-  };
-  reject(owner.find("goal"));
-  for (const JsonReader goal : owner.find("goals").items()) reject(goal);
-}
-
 class TaskReader {
  public:
   TaskReader(const AssignRequest& request, const Limits& limits)
@@ -52,7 +40,7 @@ class TaskReader {
     core::Task& task = request.tasks.emplace_back();
     if (goals) {
       task.goals = parse_goals(json, request_.plan.frame, goals_).goals;
-      reject_any_of(json);
+      for (const JsonReader goal : goals.items()) reject_any_of(goal);
     }
     task.robots = robots(json.find("robots"));
     json.find("due").number(kDuration);
@@ -61,6 +49,13 @@ class TaskReader {
   }
 
  private:
+  /// Arrivals are those at given poses.
+  static void reject_any_of(const JsonReader& goal) {
+    const JsonReader any_of = goal.find("any_of");
+    if (!any_of) return;
+    any_of.fault(fault::kUnknownKey, "Goals of tasks have no any_of; give each of them a pose.");
+  }
+
   void check_id(const JsonReader& member, const std::string& id) {
     const std::size_t index = ids_.size();
     if (id.empty()) return;
@@ -117,9 +112,6 @@ std::optional<AssignRequest> parse_assign_request(const JsonReader& root, const 
   const JsonReader tasks = root.require("tasks", "; give a list of tasks").array();
   if (!member) return std::nullopt;
   auto plan = parse_plan_request(member, limits, stop, maps);
-  if (plan && plan->open) {
-    for (const JsonReader robot : member.find("robots").items()) reject_any_of(robot);
-  }
   // With faults, robots may be missing that tasks name.
   if (!plan || root.fault_count() > 0) return std::nullopt;
   AssignRequest request{

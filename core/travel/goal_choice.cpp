@@ -420,6 +420,68 @@ std::vector<Zone> zones_of(const std::vector<Zone>& zones, const std::vector<std
   return all;
 }
 
+/// Which of all poses of open goals have a place for their robots.
+class PoseCheck {
+ public:
+  PoseCheck(const std::shared_ptr<const StaticMap>& map, const std::vector<Zone>& zones,
+            const std::vector<Robot>& robots, const OpenGoals& open, const StopCondition& stop)
+      : map_(map), stop_(stop) {
+    for (std::size_t robot = 0; robot < robots.size(); ++robot) {
+      if (open[robot].empty()) continue;
+      const std::vector<double> radii = radii_of(robots[robot]);
+      for (const OpenGoal& goal : open[robot]) {
+        if (stop.met()) return;
+        for (const Alternative& pose : goal.poses) {
+          Robot& disk = disks_.emplace_back();
+          disk.radius = std::max(radii[goal.goal], radii[goal.goal + 1]);
+          disk.linear_speed = disk.angular_speed = 1.0;
+          disk.start = {pose.position, 0.0};
+          stands_for_.push_back(robot);
+        }
+      }
+    }
+    zones_ = zones_of(zones, stands_for_, stop);
+  }
+
+  /// By pose: the disk overlaps an obstacle or a blocked zone that nobody may leave.
+  std::vector<bool> blocked() const {
+    return faulty(disks_, zones_, [](const ProblemFault&) { return true; });
+  }
+
+  /// By pose: a goal there would be put off, because of a zone that nobody enters.
+  std::vector<bool> closed() const {
+    std::vector<Zone> zones = zones_;
+    std::erase_if(zones,
+                  [](const Zone& zone) { return zone.type != Zone::Type::blocked || !zone.may_leave; });
+    if (zones.empty()) return std::vector<bool>(disks_.size(), false);
+    for (Zone& zone : zones) zone.may_leave = false;
+    return faulty(disks_, std::move(zones), [](const ProblemFault& fault) { return fault.zone.has_value(); });
+  }
+
+ private:
+  template <class Counts>
+  std::vector<bool> faulty(std::vector<Robot> disks, std::vector<Zone> zones, const Counts& counts) const {
+    std::vector<bool> is_faulty(disks.size(), false);
+    ProblemConditions conditions;
+    conditions.zones = std::move(zones);
+    conditions.one_at_a_time = true;
+    conditions.list_faults_of_every_robot = true;
+    const auto made = Problem::create(map_, std::move(disks), std::move(conditions), stop_);
+    const auto* faults = std::get_if<ProblemFaults>(&made);
+    if (faults == nullptr) return is_faulty;
+    for (const ProblemFault& fault : faults->listed) {
+      if (counts(fault)) is_faulty[fault.robot] = true;
+    }
+    return is_faulty;
+  }
+
+  const std::shared_ptr<const StaticMap>& map_;
+  const StopCondition& stop_;
+  std::vector<Robot> disks_;             // one for each pose, where it starts
+  std::vector<std::size_t> stands_for_;  // by disk: its robot
+  std::vector<Zone> zones_;              // for the disks
+};
+
 }  // namespace
 
 ProblemConditions conditions_of(const PlanOptions& options) {
@@ -433,32 +495,10 @@ ProblemConditions conditions_of(const PlanOptions& options) {
 std::vector<OpenPlace> leave_out_blocked_poses(const std::shared_ptr<const StaticMap>& map,
                                                const std::vector<Zone>& zones, std::vector<Robot>& robots,
                                                OpenGoals& open, const StopCondition& stop) {
-  std::vector<Robot> disks;  // one for each pose
-  std::vector<std::size_t> stands_for;
-  for (std::size_t robot = 0; robot < robots.size(); ++robot) {
-    if (open[robot].empty()) continue;
-    const std::vector<double> radii = radii_of(robots[robot]);
-    for (const OpenGoal& goal : open[robot]) {
-      if (stop.met()) return {};
-      for (const Alternative& pose : goal.poses) {
-        Robot& disk = disks.emplace_back();
-        disk.radius = std::max(radii[goal.goal], radii[goal.goal + 1]);
-        disk.linear_speed = disk.angular_speed = 1.0;
-        disk.start = {pose.position, 0.0};
-        stands_for.push_back(robot);
-      }
-    }
-  }
-  ProblemConditions conditions;
-  conditions.zones = zones_of(zones, stands_for, stop);
-  conditions.one_at_a_time = true;
-  conditions.list_faults_of_every_robot = true;
-  const std::size_t count = disks.size();
-  const auto made = Problem::create(map, std::move(disks), std::move(conditions), stop);
-  const auto* faults = std::get_if<ProblemFaults>(&made);
-  if (faults == nullptr || !faults->finished) return {};
-  std::vector<bool> is_blocked(count, false);
-  for (const ProblemFault& fault : faults->listed) is_blocked[fault.robot] = true;
+  const PoseCheck check(map, zones, robots, open, stop);
+  const std::vector<bool> is_blocked = check.blocked();
+  const std::vector<bool> is_closed = check.closed();
+  if (stop.met()) return {};
   std::vector<OpenPlace> without;
   std::size_t next = 0;
   for (std::size_t robot = 0; robot < robots.size(); ++robot) {
@@ -466,7 +506,9 @@ std::vector<OpenPlace> leave_out_blocked_poses(const std::shared_ptr<const Stati
       OpenGoal& goal = open[robot][k];
       std::vector<Alternative> left;
       for (const Alternative& pose : goal.poses) {
-        if (!is_blocked[next++]) left.push_back(pose);
+        if (!is_blocked[next]) left.push_back(pose);
+        if (!is_blocked[next] && is_closed[next]) left.back().bias += kUseless;
+        ++next;
       }
       if (left.empty() && !goal.is_settled) without.push_back({robot, k});
       if (left.empty() || goal.is_settled) continue;

@@ -33,7 +33,8 @@ struct OpenPlace {
 ProblemConditions conditions_of(const PlanOptions& options);
 
 /// Leaves out the poses at which the disk of the robot overlaps an obstacle or a blocked zone. A goal that
-/// would have none keeps them all, and is returned. Settled goals stay as they are. Nothing is left out if
+/// would have none keeps them all, and is returned. Poses at which a goal would be put off, because of a zone
+/// that nobody enters, become the last ones to be chosen. Settled goals stay as they are, and all do if
 /// `stop` is met first.
 std::vector<OpenPlace> leave_out_blocked_poses(const std::shared_ptr<const StaticMap>& map,
                                                const std::vector<Zone>& zones, std::vector<Robot>& robots,

@@ -56,6 +56,7 @@ const BEYOND_SCHEMA = {
     "/obstacles/\\d+/motion/\\d+/t",
     "/disturbance/(speed|turn|start_delay)/max",
     "/trace",
+    "/plans/\\d+/visits/\\d+/choice", // of another goal
     "(/robots?(/\\d+(/goal(s/\\d+)?)?)?|/(goals|tasks)/\\d+/goals/\\d+)?/metadata",
     "(/robots/\\d+/goal(s/\\d+)?|/(goals|tasks)/\\d+/goals/\\d+)/(actions|service|due)", // actions need a service; due before not_before
     "/states/\\d+/released(/action)?", // behind the robot

@@ -255,8 +255,7 @@ void expect_that_choices_hold(Json request, const Json& answer) {
       EXPECT_EQ(visit.contains("choice"), goal.contains("any_of"));
       if (!visit.contains("choice")) continue;
       any = true;
-      EXPECT_EQ(visit.at("choice").is_null(), visit.at("t_arrive").is_null());
-      if (visit.at("choice").is_null()) continue;
+      if (visit.at("t_arrive").is_null()) continue;
       const Json& pose = goal.at("any_of").at(visit.at("choice").get<std::size_t>());
       const core::Position chosen(pose.at("x").get<double>(), pose.at("y").get<double>());
       const double away = (position_at(robot, plan.at("actions"), visit.at("t_arrive")) - chosen).norm();

@@ -26,6 +26,8 @@ function poseAt(actions, t) {
 }
 
 const goalsOf = ({ goal, goals }) => goals ?? (goal ? [goal] : []);
+/** Those that have one pose. */
+const placedGoalsOf = (robot) => goalsOf(robot).filter(({ any_of }) => any_of === undefined);
 
 /** One value for some of the items. */
 function ofSome(items, make) {
@@ -141,7 +143,7 @@ export class Executions {
         })
         .map(
           ({ robot: { start, goal, goals, committed, previous, goal_age, ...traits }, rows, with_zones }) => {
-            const to = goalsOf({ goal, goals });
+            const to = placedGoalsOf({ goal, goals });
             const radius = smallestRadius({ robots: [{ ...traits, goal, goals }], robot_defaults });
             return {
               map,
@@ -160,7 +162,7 @@ export class Executions {
   assignments() {
     return this.#fleets.chain(({ request }) => {
       const robot = fc.constantFrom(...request.robots.map(({ id }) => id));
-      const goals = request.robots.flatMap(goalsOf);
+      const goals = request.robots.flatMap(placedGoalsOf);
       const task = fc.record(
         {
           id: fc.uuid(),
