@@ -27,6 +27,8 @@ constexpr double kChangeOfMind = 1e6;
 constexpr std::size_t kGoalsAhead = 8;
 /// How often two last goals that overlap are told apart by forbidding one of them.
 constexpr int kMostConflicts = 64;
+/// How many positions are tried after that, one robot after the other.
+constexpr int kMostTries = 20'000;
 
 /// When a robot that takes a pose would rest there, and when it would rest at the last goal before its next
 /// open one; seconds.
@@ -151,11 +153,17 @@ class Chooser {
     if (last_.empty()) return std::vector<OpenPlace>();
     const auto times = times_of_(last_);
     if (!times || !make_costs(*times)) return std::nullopt;
-    for (int round = 0; round < kMostConflicts; ++round) {
+    const std::vector<std::vector<double>> all_costs = costs_;
+    bool overlaps = true;
+    for (int round = 0; round < kMostConflicts && overlaps; ++round) {
       auto columns = assign(costs_, std::vector<std::int64_t>(last_.size(), 1), stop_);
       if (!columns) return std::nullopt;
       columns_of_ = std::move(*columns);
-      if (!forbid_overlap()) break;
+      overlaps = forbid_overlap();
+    }
+    if (overlaps || std::count(columns_of_.begin(), columns_of_.end(), std::nullopt) > 0) {
+      costs_ = all_costs;
+      if (auto apart = first_apart()) columns_of_ = std::move(*apart);
     }
     std::vector<OpenPlace> without;
     for (std::size_t row = 0; row < last_.size(); ++row) {
@@ -245,8 +253,7 @@ class Chooser {
       if (stop_.met()) return false;
       for (std::size_t other = 0; other < row && columns_of_[row]; ++other) {
         if (!columns_of_[other]) continue;
-        const double sum = last_radius(robot_of(last_[row])) + last_radius(robot_of(last_[other]));
-        if (!overlap(positions_[*columns_of_[row]], positions_[*columns_of_[other]], sum)) continue;
+        if (!overlap_at(row, *columns_of_[row], other, *columns_of_[other])) continue;
         // The one that loses less, by its next best position.
         const std::size_t loser = loss(row) < loss(other) ? row : other;
         costs_[loser][*columns_of_[loser]] = kForever;
@@ -254,6 +261,51 @@ class Chooser {
       }
     }
     return false;
+  }
+
+  /// Tries positions one robot after the other, the one with the fewest first, the cheapest first. None if
+  /// that finds none for all of them that do not overlap.
+  std::optional<std::vector<std::optional<std::size_t>>> first_apart() const {
+    std::vector<std::vector<std::size_t>> options(last_.size());
+    std::vector<std::size_t> order;
+    for (std::size_t row = 0; row < last_.size(); ++row) {
+      if (stop_.met()) return std::nullopt;
+      const std::vector<double>& costs = costs_[row];
+      for (std::size_t column = 0; column < costs.size(); ++column) {
+        if (costs[column] < kForever) options[row].push_back(column);
+      }
+      std::sort(options[row].begin(), options[row].end(), [&](std::size_t a, std::size_t b) {
+        return std::pair(costs[a], a) < std::pair(costs[b], b);
+      });
+      order.push_back(row);
+    }
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return options[a].size() < options[b].size(); });
+    std::vector<std::optional<std::size_t>> taken(last_.size());
+    std::vector<std::size_t> next(last_.size(), 0);  // option by rank in the order
+    std::size_t rank = 0;
+    for (int tries = 0; rank < order.size(); ++tries) {
+      if (tries == kMostTries || stop_.met()) return std::nullopt;
+      const std::size_t row = order[rank];
+      if (next[rank] == options[row].size()) {
+        if (rank == 0) return std::nullopt;
+        next[rank--] = 0;
+        continue;
+      }
+      const std::size_t column = options[row][next[rank]++];
+      const bool is_free =
+          std::none_of(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(rank),
+                       [&](std::size_t other) { return overlap_at(row, column, other, *taken[other]); });
+      if (!is_free) continue;
+      taken[row] = column;
+      ++rank;
+    }
+    return taken;
+  }
+
+  bool overlap_at(std::size_t row, std::size_t column, std::size_t other, std::size_t other_column) const {
+    const double sum = last_radius(robots_[last_[row].robot]) + last_radius(robots_[last_[other].robot]);
+    return overlap(positions_[column], positions_[other_column], sum);
   }
 
   double loss(std::size_t row) const {

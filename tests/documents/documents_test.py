@@ -159,7 +159,7 @@ class Examples(DocumentTest):
         self.assert_shape(self.post("/v1/validate", {**request, **answer}), verdict)
 
     def test_the_members_of_fleets_in_motion_are_accepted_and_planned(self):
-        request, motion, _ = map(json.loads, blocks("docs/plan_request.md", "json"))
+        request, _, motion, _ = map(json.loads, blocks("docs/plan_request.md", "json"))
         request = {**request, **motion}
         answer = self.post("/v1/plan", request)
         self.assertEqual(answer["status"], "solved")
@@ -170,8 +170,16 @@ class Examples(DocumentTest):
         self.assertGreaterEqual(plan["visits"][0]["t_leave"], 15.0)
         self.assertTrue(self.post("/v1/validate", {**request, **answer})["valid"])
 
+    def test_the_goals_at_one_of_several_poses_are_served_at_the_best(self):
+        request, poses, _, _ = map(json.loads, blocks("docs/plan_request.md", "json"))
+        request = {**request, **poses}
+        answer = self.post("/v1/plan", request)
+        (plan,) = answer["plans"]
+        self.assertEqual([visit["choice"] for visit in plan["visits"]], [0, 1])
+        self.assertTrue(self.post("/v1/validate", {**request, **answer})["valid"])
+
     def test_the_zones_of_the_api_page_make_the_way_longer(self):
-        request, _, zones = map(json.loads, blocks("docs/plan_request.md", "json"))
+        request, _, _, zones = map(json.loads, blocks("docs/plan_request.md", "json"))
         shown = first_response()
         request = {**request, **zones}
         answer = self.post("/v1/plan", request)
