@@ -287,7 +287,9 @@ std::optional<PlanRequest> parse_plan_request(const JsonReader& request, const L
 }
 
 void tell_choices(PlanRequest& request) {
-  for (std::size_t k = 0; request.open && k < request.received.size(); ++k) {
+  // A request with robots that have no place is refused; there are goals of the others only.
+  if (!request.open || request.open->goals.size() != request.received.size()) return;
+  for (std::size_t k = 0; k < request.received.size(); ++k) {
     request.received[k].choices = choices_of(request.open->goals[k]);
   }
 }

@@ -260,5 +260,15 @@ TEST(OpenGoals, AllInWallsMakeARobotInvalid) {
   EXPECT_EQ(answer["unplanned"][0]["errors"][0]["pointer"], "/robots/0/goal/any_of");
 }
 
+TEST(OpenGoals, AreReadBesideARobotThatCannotBeRead) {
+  Json request = dock_request({0.5, 2.5}, 5);
+  request["robots"][0]["radius"] = Json::array({0.3});
+  const Reply reply = plan_endpoint(request.dump(), {});
+  EXPECT_EQ(reply.status, 422);
+  const Json errors = json_of(reply)["errors"];
+  ASSERT_EQ(errors.size(), 1U) << reply.body;
+  EXPECT_EQ(errors[0]["pointer"], "/robots/0/radius");
+}
+
 }  // namespace TEST_FILE
 }  // namespace fleetplan::api
