@@ -148,12 +148,24 @@ std::optional<Action> continued(const core::Robot& robot, Action action, const P
   return left > kDone ? std::optional(action) : std::nullopt;
 }
 
-/// Drives the first action, and those that follow it at speed, from this speed on.
+/// Drives the first action, and those that follow it at speed, from this speed on. If it leads along another
+/// line than planned, the robot stands at its end, where it turns, and those that follow begin from rest.
 void go_on_at(double speed, Actions& driven, Actions& following) {
   Actions chain = driven;
   chain.insert(chain.end(), following.begin(), following.end());
   chain.resize(end_of_chain(chain, 0));
-  following.erase(following.begin(), following.begin() + static_cast<std::ptrdiff_t>(chain.size() - 1));
+  const auto next = following.begin() + static_cast<std::ptrdiff_t>(chain.size() - 1);
+  const bool turns =
+      chain.size() > 1 && core::angle_between(chain[0].to.theta, chain[1].from.theta) > kSameLine;
+  if (turns) {
+    const Actions from_rest = driven_from(Actions(following.begin(), next), following.front().t_start, 0.0);
+    const double later = from_rest.back().t_end - std::prev(next)->t_end;
+    std::copy(from_rest.begin(), from_rest.end(), following.begin());
+    delay(following, from_rest.size(), later);
+    chain.resize(1);
+  } else {
+    following.erase(following.begin(), next);
+  }
   driven = driven_from(std::move(chain), 0.0, speed);
 }
 

@@ -297,6 +297,24 @@ TEST(Timeline, ATranslationAlongAnotherLineEndsInThePlannedHeading) {
   expect_pose(rest.actions[1].to, 5.0, 1.0, 0.0);
 }
 
+TEST(Timeline, BesideALineThatGoesOnAtSpeedARobotStandsAndTurnsToIt) {
+  const auto chain = through_two_parts({1.0, 0.5});
+  ASSERT_GT(chain[0].profile->end, 0.0);
+  core::Robot braking = robot();
+  braking.linear_acceleration = 1.0;
+  braking.linear_deceleration = 2.0;
+  const double at = 2.0;
+  const Pose beside{pose_at(chain[0], at).position + core::Position(0.0, 0.05), 0.0};
+  const Remainder rest = remainder_of_measured(braking, chain, beside, {0, at}, at, std::nullopt);
+  expect_contiguous(rest);
+  ASSERT_EQ(rest.actions.size(), 3U);
+  EXPECT_EQ(rest.actions[0].profile->end, 0.0);
+  EXPECT_EQ(rest.actions[1].type, Type::rotate);
+  EXPECT_EQ(rest.actions[2].profile->start, 0.0);
+  EXPECT_TRUE(profile_fits(rest.actions[0]) && profile_fits(rest.actions[2]));
+  expect_pose(rest.actions[2].to, 6.0, 1.0, 0.0);
+}
+
 TEST(Timeline, ARobotThatStandsIsWhereItsPlanHasIt) {
   const Remainder rest = measured({{5.05, 1.0}, kQuarter - 0.05}, 6.0);
   expect_pose(rest.start, 5.0, 1.0, kQuarter);
