@@ -2,7 +2,7 @@
 // as possible; the service reports their faults.
 
 import { asRows } from "./drawn_map.js";
-import { goalsOf } from "./goals.js";
+import { alternativesOf, goalsOf } from "./goals.js";
 import { preparedCells, readRows } from "./grid_cells.js";
 import { robotsOf } from "./listed.js";
 import { radiusAt } from "./motion.js";
@@ -64,6 +64,7 @@ function readRobots(request) {
       start: { ...start, theta: start.theta ?? 0 },
       goal,
       via: goals.slice(0, -1),
+      alternatives: goalsOf(robot).map((each) => alternativesOf(each).map(readPose)),
       radiiAfter: goalsOf(robot).map((each) => (positive(each?.radius_after) ? each.radius_after : null)),
       committed,
       inertia: inertiaOf(robot, request.robot_defaults),
@@ -98,10 +99,11 @@ export function readScene(request, previous = null) {
 }
 
 /**
- * The track of each robot of the scene, by id: {status, actions, radii, path, cost, lowerBound, unplanned,
+ * The track of each robot of the scene, by id: {status, actions, chosen, radii, path, cost, lowerBound, unplanned,
  * former}. The status is "ready" before there is an answer, then "planned", "parked" (it has no goal and does not move),
  * "unplanned" (it executes its committed actions, if any) or "outdated" (it stands at its start, and its plan, which no
  * longer holds, is the actions in `former`; the path is theirs);
+ * `chosen` are the poses that the plan takes of goals with alternatives, by goal, null for the others;
  * `radii` are those that it has later, as [{t, radius}], each from its t on;
  * `lowerBound`, the lower bound of its cost (seconds), is null if the answer lacks it.
  * @param {Scene} scene
@@ -123,6 +125,7 @@ export function readTracks(scene, answer, outdated = null) {
     tracks.set(robot.id, {
       status: statusOf(robot, plans, failures),
       actions,
+      chosen: chosenOf(robot, plans.get(robot.id)),
       radii: radiiOf(robot, plans.get(robot.id)),
       path: pathOf(actions),
       cost: plans.get(robot.id)?.cost ?? null,
@@ -137,8 +140,14 @@ export function readTracks(scene, answer, outdated = null) {
 /** The track of a robot whose plan, if it has one, no longer holds. */
 function outdatedTrack(plan) {
   const former = plan?.actions ?? [];
-  const nothing = { actions: [], radii: [], cost: null, lowerBound: null, unplanned: null };
+  const nothing = { actions: [], chosen: [], radii: [], cost: null, lowerBound: null, unplanned: null };
   return { status: plan === undefined ? "ready" : "outdated", ...nothing, path: pathOf(former), former };
+}
+
+function chosenOf({ alternatives }, plan) {
+  const visits = Array.isArray(plan?.visits) ? plan.visits : [];
+  const choices = new Map(visits.map(({ goal, choice }) => [goal, choice]));
+  return alternatives.map((poses, goal) => poses[choices.get(goal)] ?? null);
 }
 
 /** The radii that goals change, from the ends of their services. */
@@ -155,7 +164,8 @@ function radiiOf({ radiiAfter }, plan) {
 function statusOf(robot, plans, failures) {
   if (failures.has(robot.id)) return "unplanned";
   const plan = plans.get(robot.id);
-  if (!robot.goal && !(plan?.actions.length > 0)) return "parked";
+  const hasGoal = robot.goal || robot.alternatives.at(-1)?.length > 0;
+  if (!hasGoal && !(plan?.actions.length > 0)) return "parked";
   return plan === undefined ? "ready" : "planned";
 }
 

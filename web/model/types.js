@@ -160,7 +160,8 @@
 /**
  * A robot as it is drawn, at `index` of the request's robots. A goal's theta is null for any heading. `via` are
  * the goals before the last one, null where they are faulty; `radiiAfter` are the radii that goals change, null where
- * they do not; `committed` is the path of its committed actions.
+ * they do not; `alternatives` are the poses at one of which each goal is served, none of a goal with one pose, null
+ * where they are faulty; `committed` is the path of its committed actions.
  * @typedef {object} Robot
  * @property {number} index
  * @property {string} id
@@ -169,6 +170,7 @@
  * @property {Pose} start
  * @property {{x: number, y: number, theta: number | null} | null} goal
  * @property {({x: number, y: number, theta: number | null} | null)[]} via
+ * @property {({x: number, y: number, theta: number | null} | null)[][]} alternatives
  * @property {(number | null)[]} radiiAfter
  * @property {Position[]} committed
  * @property {Inertia} inertia
@@ -193,6 +195,7 @@
  * @typedef {object} Track
  * @property {"ready" | "planned" | "parked" | "unplanned" | "outdated"} status
  * @property {Action[]} actions
+ * @property {({x: number, y: number, theta: number | null} | null)[]} chosen
  * @property {{t: number, radius: number}[]} radii
  * @property {Position[]} path
  * @property {number | null} cost

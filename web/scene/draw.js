@@ -8,7 +8,15 @@ import { contextOf } from "../ui/dom.js";
 import { HeatMap } from "./heat_map.js";
 import { Backdrop } from "./backdrop.js";
 import { MapRaster } from "./map_raster.js";
-import { drawGoal, drawNumber, drawObstacle, drawPath, drawRobot, drawStart } from "./marks.js";
+import {
+  drawAlternative,
+  drawGoal,
+  drawNumber,
+  drawObstacle,
+  drawPath,
+  drawRobot,
+  drawStart,
+} from "./marks.js";
 import { TagPlaces } from "./tag_places.js";
 import { drawZone } from "./zone_marks.js";
 import { robotColour } from "./palette.js";
@@ -131,6 +139,7 @@ export class Painter {
     for (const { motion } of this.#scene.obstacles) {
       if (shown) drawPath(context, motion.map(screen), this.#theme.ink, CROSSING);
     }
+    this.#paintAlternatives(context, camera, screen);
     const faint = pathLine(this.#scene.robots.length);
     for (const [at, robot] of this.#scene.robots.entries()) {
       if (at % PART === 0) yield;
@@ -143,7 +152,7 @@ export class Painter {
         drawPath(context, track.path.map(screen), ink, line);
       if (shown) drawPath(context, robot.committed.map(screen), colour, COMMITTED);
       if (track.actions.length > 0) drawStart(context, screen(robot.start), radius, colour);
-      this.#paintGoals(context, robot, radius, colour, screen);
+      this.#paintGoals(context, robot, track.chosen, radius, colour, screen);
     }
   }
 
@@ -155,9 +164,22 @@ export class Painter {
     this.#heat.draw(context, { grid, tracks: this.#tracks, kind: heat, colour, screen, scale });
   }
 
-  /** The goals of a robot; several ones with their numbers, from 1. */
-  #paintGoals(context, { via, goal }, radius, colour, screen) {
-    const goals = [...via, goal];
+  /** The poses of which robots may choose: each once, as many of them are those of several robots. */
+  #paintAlternatives(context, { scale }, screen) {
+    const painted = new Set();
+    for (const { alternatives, radius } of this.#scene.robots) {
+      for (const pose of alternatives.flat()) {
+        const place = pose && `${pose.x} ${pose.y}`;
+        if (place === null || painted.has(place)) continue;
+        painted.add(place);
+        drawAlternative(context, this.#theme, screen(pose), radius * scale);
+      }
+    }
+  }
+
+  /** The goals of a robot, those that it has `chosen` among them; several ones with their numbers, from 1. */
+  #paintGoals(context, { via, goal }, chosen, radius, colour, screen) {
+    const goals = [...via, goal].map((pose, at) => pose ?? chosen[at] ?? null);
     goals.forEach((each, at) => {
       if (each === null) return;
       drawGoal(context, screen(each), each.theta, radius, colour);

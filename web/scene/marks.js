@@ -45,6 +45,12 @@ export function drawGoal(context, centre, theta, radius, colour) {
   context.restore();
 }
 
+/** A pose at which a goal may be served, of no robot as long as none has chosen it: a dotted ring. */
+export function drawAlternative(context, theme, centre, radius) {
+  const shown = Math.max(radius, SMALLEST_DOT);
+  ring(context, centre, shown - 0.5, theme.muted, { width: 1.5, alpha: 0.8, dashes: [1, 3] });
+}
+
 /** The number of a goal, in its ring. */
 export function drawNumber(context, theme, centre, radius, colour, number) {
   const size = Math.min(14, radius * 1.3);

@@ -55,6 +55,31 @@ test("a robot has another radius after a goal that changes it", () => {
   assert.equal(robotRadiusAt(scene.robots[0], stopped.get("a"), 9), 0.4, "beyond the horizon");
 });
 
+test("a goal at one of several poses is the one that the plan has chosen", () => {
+  const docks = [
+    { x: 10.25, y: -1.25 },
+    { x: 10.75, y: -0.75, theta: 1, bias: 5 },
+  ];
+  const goals = [{ any_of: docks }, { x: 10.25, y: -0.75 }, { any_of: docks }];
+  const scene = readScene({ ...REQUEST, robots: [{ ...REQUEST.robots[0], goal: undefined, goals }] });
+  const [{ alternatives, via, goal }] = scene.robots;
+  const poses = [
+    { x: 10.25, y: -1.25, theta: null },
+    { x: 10.75, y: -0.75, theta: 1 },
+  ];
+  assert.deepEqual(alternatives, [poses, [], poses]);
+  assert.deepEqual([...via, goal], [null, { x: 10.25, y: -0.75, theta: null }, null]);
+  assert.equal(readTracks(scene, null).get("amr-1").status, "ready");
+  const visits = [
+    { goal: 0, choice: 1 },
+    { goal: 1, t_arrive: 2 },
+    { goal: 2, choice: null }, // beyond the horizon
+  ];
+  const plan = { robot: "amr-1", actions: [], visits };
+  const { chosen } = readTracks(scene, { plans: [plan] }).get("amr-1");
+  assert.deepEqual(chosen, [poses[1], null, null]);
+});
+
 test("labels omit the common prefix of all ids but never split a number", () => {
   const labels = (...ids) =>
     readScene({ robots: ids.map((id) => ({ id, radius: 1, start: { x: 0, y: 0 } })) }).robots.map(
