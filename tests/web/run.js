@@ -32,7 +32,8 @@ async function writeBatches(files, folder) {
 const given = process.argv.slice(2);
 const options = given.filter((each) => each.startsWith("-"));
 const named = given.filter((each) => !each.startsWith("-"));
-const files = named.length > 0 ? named : [...(await testFiles("browser")), ...(await testFiles("unit"))];
+const FOLDERS = ["browser", "static", "unit"];
+const files = named.length > 0 ? named : (await Promise.all(FOLDERS.map(testFiles))).flat();
 const inBrowser = (file) => resolve(file).startsWith(resolve("browser"));
 const folder = await mkdtemp(join(tmpdir(), "fleetplan-page-tests-"));
 try {
