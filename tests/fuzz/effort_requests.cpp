@@ -389,8 +389,10 @@ Json matrix_of(const Json& request) {
   Json to = Json::array();
   for (const Json& robot : request["robots"]) {
     if (from.size() < kMost) from.push_back(robot["start"]);
-    if (to.size() < kMost && robot.contains("goal"))
-      to.push_back({{"x", robot["goal"]["x"]}, {"y", robot["goal"]["y"]}});
+    if (to.size() == kMost || !robot.contains("goal")) continue;
+    const Json& goal = robot["goal"];
+    const Json& pose = goal.contains("any_of") ? goal["any_of"][0] : goal;
+    to.push_back({{"x", pose["x"]}, {"y", pose["y"]}});
   }
   Json matrix{{"map", request["map"]}, {"robot", request["robot_defaults"]}, {"from", from}, {"to", to}};
   if (request.contains("zones")) matrix["zones"] = request["zones"];
