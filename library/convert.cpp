@@ -27,6 +27,11 @@ static_assert(same(Options::Replan::where_needed, core::PlanOptions::Replan::whe
 static_assert(same(Unplanned::Reason::committed_in_the_way, core::Unplanned::Reason::committed_in_the_way));
 static_assert(same(Violation::Kind::zone, core::Violation::Kind::zone));
 
+core::SpeedProfile profile_of(const Profile& profile) {
+  return {
+      profile.start, profile.cruise, profile.end, {1.0 / profile.acceleration, 1.0 / profile.deceleration}};
+}
+
 }  // namespace
 
 core::Pose Frame::to_core(const Pose& pose) const {
@@ -62,11 +67,6 @@ Action Frame::from_core(const core::Action& action) const {
                     1.0 / profile->inertia.fall};
   }
   return made;
-}
-
-core::SpeedProfile profile_of(const Profile& profile) {
-  return {
-      profile.start, profile.cruise, profile.end, {1.0 / profile.acceleration, 1.0 / profile.deceleration}};
 }
 
 core::OccupancyGrid grid_of(const Map& map) {

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "core/geometry/moving_obstacle.h"
-#include "core/geometry/speed_profile.h"
 #include "core/map/occupancy_grid.h"
 #include "core/model/plan.h"
 #include "core/model/plan_options.h"
@@ -26,6 +25,7 @@ namespace fleetplan::library {
 /// The place of the map's lower left corner, and conversions by it.
 class Frame {
  public:
+  Frame() = default;  // that of the core
   explicit Frame(const Map& map) : origin_(map.origin().x, map.origin().y) {}
 
   core::Position to_core(double x, double y) const { return core::Position(x, y) - origin_; }
@@ -35,10 +35,9 @@ class Frame {
   Action from_core(const core::Action& action) const;
 
  private:
-  core::Position origin_;
+  core::Position origin_{0.0, 0.0};
 };
 
-core::SpeedProfile profile_of(const Profile& profile);
 core::OccupancyGrid grid_of(const Map& map);
 /// Converts a robot without its committed and previous actions.
 core::Robot robot_of(const Robot& robot, const Frame& frame);

@@ -249,11 +249,7 @@ void write_pose(JsonWriter& json, std::string_view key, const core::Pose& pose) 
 void write_start(JsonWriter& json, const core::Robot& robot) {
   json.key("start").begin_object();
   write_coordinates(json, robot.start);
-  if (!robot.committed.empty() && robot.committed.front().type == core::Action::Type::translate) {
-    const core::Action& first = robot.committed.front();
-    const double speed = first.profile ? first.profile->start : 0.0;
-    if (speed > 0.0) json.member("speed", first.reverse ? -speed : speed);
-  }
+  if (robot.committed_speed() != 0.0) json.member("speed", robot.committed_speed());
   json.end_object();
 }
 

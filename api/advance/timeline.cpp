@@ -27,8 +27,6 @@ constexpr double kSameLine = 1e-6;
 /// A measured pose that is nearer to the planned line is on it (metres).
 constexpr double kOnLine = 1e-8;
 
-double length(const Action& action) { return (action.to.position - action.from.position).norm(); }
-
 double turn(const Action& action) { return core::rotation_between(action.from.theta, action.to.theta); }
 
 /// The actions from an index on, on the clock of the moment.
@@ -133,8 +131,8 @@ std::optional<Action> continued(const core::Robot& robot, Action action, const P
   const double duration = action.t_end - action.t_start;
   if (action.type == Action::Type::translate) {
     const core::Position path = action.to.position - pose.position;
-    const bool has_reached = path.norm() <= kReached || length(action) <= 0.0;
-    left = has_reached ? 0.0 : scaled(duration, length(action), path.norm(), robot.linear_speed);
+    const bool has_reached = path.norm() <= kReached || core::amount_of(action) <= 0.0;
+    left = has_reached ? 0.0 : scaled(duration, core::amount_of(action), path.norm(), robot.linear_speed);
     action.from = {pose.position, heading_along(path, action)};
     action.to.theta = action.from.theta;
   } else if (action.type == Action::Type::rotate) {
@@ -337,7 +335,7 @@ Actions driven_until(const Actions& actions, double metres) {
     const bool is_next =
         driven.empty() ? action.type == Action::Type::translate : goes_on(driven.back(), action);
     if (!is_next || metres <= kReached) break;
-    const double whole = length(action);
+    const double whole = core::amount_of(action);
     const double share = whole > metres ? metres / whole : 1.0;
     metres -= whole;
     driven.push_back(action);

@@ -324,8 +324,7 @@ bool give_up_poses(const core::Plan& plan, PlanRequest& request) {
 core::Plan with_other_poses(core::Plan plan, PlanRequest& request, const core::StopCondition& stop,
                             core::Executor& executor,
                             const std::function<core::Plan(const PlanRequest&)>& plan_anew) {
-  if (!request.open) return plan;
-  for (int k = 0; k < kMostSecondChoices; ++k) {
+  for (int k = 0; request.open && !plan.unplanned.empty() && k < kMostSecondChoices; ++k) {
     PlanRequest other = request;
     if (!give_up_poses(plan, other)) break;
     if (stop.met() || !choose_poses(other, stop, executor)) {

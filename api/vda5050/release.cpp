@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/execution/drive.h"
 #include "core/geometry/tolerance.h"
 
 namespace fleetplan::api {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/execution/drive.h"
 #include "core/execution/executed_actions.h"
 #include "core/geometry/angle.h"
 

@@ -23,13 +23,6 @@ std::size_t end_of_drive(Actions actions, std::size_t first) {
   return last + 1;
 }
 
-double share_covered(const Action& action, double elapsed) {
-  const double whole = action.profile ? amount_of(action) : 0.0;
-  if (whole <= 0.0) return elapsed;
-  const double duration = action.t_end - action.t_start;
-  return std::clamp(covered_after(*action.profile, duration, elapsed * duration) / whole, 0.0, 1.0);
-}
-
 double Drive::Piece::time_at(double place) const {
   if (place >= to || to <= from) return t_end;
   const double covered = std::max(0.0, (place - from) / (to - from));

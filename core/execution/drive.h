@@ -16,9 +16,6 @@ namespace fleetplan::core {
 /// profile, and the translations that go on at speed.
 std::size_t end_of_drive(Actions actions, std::size_t first);
 
-/// Returns the share of its length (or angle) that an action covers in a share of its duration.
-double share_covered(const Action& action, double elapsed);
-
 /// A part of a drive within one action, at constant acceleration. Times in seconds.
 struct DrivenPiece {
   std::size_t action = 0;

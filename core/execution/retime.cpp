@@ -168,15 +168,10 @@ class Forward {
 
   void begin_drive(Traveller& one, double t) const {
     const auto index = static_cast<std::size_t>(one.at);
-    const Action& action = one.action();
     const double fraction = one.at - std::floor(one.at);
-    double speed = 0.0;
     // A robot that waited, or is held, goes on from rest.
-    if (t <= one.now && t >= one.held_until) {
-      const double planned = planned_time(one.actions, index, fraction) - action.t_start;
-      speed = fraction > 0.0 ? speed_after(*action.profile, action.t_end - action.t_start, planned)
-                             : action.profile->start;
-    }
+    const bool has_stood = t > one.now || t < one.held_until;
+    const double speed = has_stood ? 0.0 : speed_at(one.action(), planned_time(one.actions, index, fraction));
     one.drive.emplace(one.actions, index, std::vector{one.speed_factor}, std::max(t, one.held_until), speed,
                       fraction);
   }

@@ -5,21 +5,34 @@
 #include "core/geometry/angle.h"
 
 namespace fleetplan::core {
+namespace {
+
+/// What the profile of an action covers in these seconds of it, as a share of the amount of the action.
+double share_of_profile(const Action& action, double amount, double seconds) {
+  const double duration = action.t_end - action.t_start;
+  const double covered = covered_after(*action.profile, duration, std::clamp(seconds, 0.0, duration));
+  return std::clamp(covered / amount, 0.0, 1.0);
+}
+
+}  // namespace
 
 double amount_of(const Action& action) {
   return action.type == Action::Type::rotate ? angle_between(action.from.theta, action.to.theta)
                                              : (action.to.position - action.from.position).norm();
 }
 
+double share_covered(const Action& action, double elapsed) {
+  const double amount = action.profile ? amount_of(action) : 0.0;
+  if (amount <= 0.0) return elapsed;
+  return share_of_profile(action, amount, elapsed * (action.t_end - action.t_start));
+}
+
 double share_at(const Action& action, double t) {
   const double duration = action.t_end - action.t_start;
   if (duration <= 0.0) return 1.0;
   const double amount = action.profile ? amount_of(action) : 0.0;
-  double share = (t - action.t_start) / duration;
-  if (amount > 0.0) {
-    share = covered_after(*action.profile, duration, std::clamp(t - action.t_start, 0.0, duration)) / amount;
-  }
-  return std::clamp(share, 0.0, 1.0);
+  if (amount <= 0.0) return std::clamp((t - action.t_start) / duration, 0.0, 1.0);
+  return share_of_profile(action, amount, t - action.t_start);
 }
 
 double time_at_share(const Action& action, double share) {

@@ -29,6 +29,9 @@ struct Action {
 /// What an action covers: metres of a translation, radians of a rotation.
 double amount_of(const Action& action);
 
+/// The share of its length (or angle), in [0, 1], that an action covers in a share of its duration.
+double share_covered(const Action& action, double elapsed);
+
 /// The share of an action, in [0, 1], that is covered at time `t`; 1 of one that takes no time.
 double share_at(const Action& action, double t);
 /// The inverse: the time at which a share in [0, 1] is covered.

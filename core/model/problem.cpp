@@ -136,6 +136,14 @@ ProblemFaults unfinished() {
 
 }  // namespace
 
+ProblemConditions conditions_of(const PlanOptions& options) {
+  ProblemConditions conditions;
+  conditions.pair_overlap = std::max(0.0, options.start_overlap - 2.0 * options.inflation);
+  conditions.wall_overlap = std::max(0.0, options.start_overlap - options.inflation);
+  conditions.inflation = options.inflation;
+  return conditions;
+}
+
 Problem::Problem(ZoneMaps maps, std::vector<Robot> robots, ProblemConditions conditions,
                  std::vector<Leaving> leaving)
     : maps_(std::move(maps)),

@@ -9,6 +9,7 @@
 
 #include "core/geometry/moving_obstacle.h"
 #include "core/map/static_map.h"
+#include "core/model/plan_options.h"
 #include "core/model/robot.h"
 #include "core/model/ways_out.h"
 #include "core/model/zone.h"
@@ -61,6 +62,9 @@ struct ProblemConditions {
   /// Lists the first faults of every robot, instead of the first ones of all.
   bool list_faults_of_every_robot = false;
 };
+
+/// Those that follow from options: how much starts may overlap, and the inflation.
+ProblemConditions conditions_of(const PlanOptions& options);
 
 /// A map and robots that can be planned for. A problem that exists is valid: radii and speeds are positive
 /// and finite, every start and goal is clear of obstacles by the bare radius, no two starts and no two last

@@ -86,6 +86,14 @@ struct Robot {
   /// The pose in which the committed actions end, and the time of it in seconds: the start and 0 without any.
   Pose committed_end() const { return committed.empty() ? start : committed.back().to; }
   double committed_until() const { return committed.empty() ? 0.0 : committed.back().t_end; }
+  /// The speed at which the profile of a committed translation begins, metres per second, negative backwards;
+  /// 0 without one.
+  double committed_speed() const {
+    if (committed.empty() || committed.front().type != Action::Type::translate) return 0.0;
+    const Action& first = committed.front();
+    const double speed = first.profile ? first.profile->start : 0.0;
+    return first.reverse ? -speed : speed;
+  }
 };
 
 }  // namespace fleetplan::core

@@ -74,9 +74,7 @@ class ZonesInTheWay {
   bool has_way(std::size_t robot, const ZoneIndices& zones) {
     ++tests_;
     if (is_over()) return true;
-    ProblemConditions conditions;
-    conditions.wall_overlap = std::max(0.0, options_.start_overlap - options_.inflation);
-    conditions.inflation = options_.inflation;
+    ProblemConditions conditions = conditions_of(options_);
     for (const std::size_t zone : zones) {
       conditions.zones.push_back(problem_.zones()[zone]);
       conditions.zones.back().robots.clear();

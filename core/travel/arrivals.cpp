@@ -100,14 +100,12 @@ class Kind {
                                       const StopCondition& stop) const {
     // The second time, for a robot that touches more where it is than any robot may at a goal.
     for (const bool checks_starts : {true, false}) {
-      ProblemConditions conditions;
+      ProblemConditions conditions = conditions_of(options);
       for (const Zone& zone : problem.zones()) {
         if (!zone.is_for(like_)) continue;
         conditions.zones.push_back(zone);
         conditions.zones.back().robots.clear();
       }
-      conditions.wall_overlap = std::max(0.0, options.start_overlap - options.inflation);
-      conditions.inflation = options.inflation;
       conditions.one_at_a_time = true;
       auto made = Problem::create(problem.map(), robots(problem.robots()[like_], checks_starts),
                                   std::move(conditions), stop);

@@ -153,7 +153,6 @@ class Chooser {
     if (last_.empty()) return std::vector<OpenPlace>();
     const auto times = times_of_(last_);
     if (!times || !make_costs(*times)) return std::nullopt;
-    const std::vector<std::vector<double>> all_costs = costs_;
     bool overlaps = true;
     for (int round = 0; round < kMostConflicts && overlaps; ++round) {
       auto columns = assign(costs_, std::vector<std::int64_t>(last_.size(), 1), stop_);
@@ -162,7 +161,7 @@ class Chooser {
       overlaps = forbid_overlap();
     }
     if (overlaps || std::count(columns_of_.begin(), columns_of_.end(), std::nullopt) > 0) {
-      costs_ = all_costs;
+      for (const auto& [row, column, cost] : forbidden_) costs_[row][column] = cost;
       if (auto apart = first_apart()) columns_of_ = std::move(*apart);
     }
     std::vector<OpenPlace> without;
@@ -256,7 +255,8 @@ class Chooser {
         if (!overlap_at(row, *columns_of_[row], other, *columns_of_[other])) continue;
         // The one that loses less, by its next best position.
         const std::size_t loser = loss(row) < loss(other) ? row : other;
-        costs_[loser][*columns_of_[loser]] = kForever;
+        forbidden_.emplace_back(loser, *columns_of_[loser],
+                                std::exchange(costs_[loser][*columns_of_[loser]], kForever));
         return true;
       }
     }
@@ -325,9 +325,10 @@ class Chooser {
   std::vector<OpenPlace> last_;
   std::vector<Other> others_;
   std::vector<Position> positions_;
-  std::vector<std::vector<double>> costs_;              // by place and position
-  std::vector<std::vector<std::size_t>> pose_at_;       // by place and position
-  std::vector<std::optional<std::size_t>> columns_of_;  // by place: index of the position
+  std::vector<std::vector<double>> costs_;                               // by place and position
+  std::vector<std::vector<std::size_t>> pose_at_;                        // by place and position
+  std::vector<std::optional<std::size_t>> columns_of_;                   // by place: index of the position
+  std::vector<std::tuple<std::size_t, std::size_t, double>> forbidden_;  // place, position, its cost before
 };
 
 /// The way in straight lines, without rotations, from where the plan of a robot begins.
@@ -535,14 +536,6 @@ class PoseCheck {
 };
 
 }  // namespace
-
-ProblemConditions conditions_of(const PlanOptions& options) {
-  ProblemConditions conditions;
-  conditions.pair_overlap = std::max(0.0, options.start_overlap - 2.0 * options.inflation);
-  conditions.wall_overlap = std::max(0.0, options.start_overlap - options.inflation);
-  conditions.inflation = options.inflation;
-  return conditions;
-}
 
 std::vector<OpenPlace> leave_out_blocked_poses(const std::shared_ptr<const StaticMap>& map,
                                                const std::vector<Zone>& zones, std::vector<Robot>& robots,

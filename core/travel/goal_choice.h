@@ -29,9 +29,6 @@ struct OpenPlace {
   std::size_t open = 0;
 };
 
-/// The conditions of a problem that follow from its options: margins, without obstacles and zones.
-ProblemConditions conditions_of(const PlanOptions& options);
-
 /// Leaves out the poses at which the disk of the robot overlaps an obstacle or a blocked zone. A goal that
 /// would have none keeps them all, and is returned. Poses at which a goal would be put off, because of a zone
 /// that nobody enters, become the last ones to be chosen. Settled goals stay as they are, and all do if

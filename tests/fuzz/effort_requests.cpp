@@ -153,20 +153,22 @@ Json obstacles_of(const Extent& extent, Choices& choices) {
   return obstacles;
 }
 
-/// Goals that are served at one of the starts of robots, as many as there may be.
+/// Goals that are served at one of the starts of robots, as many as there may be; those of all, or others
+/// each.
 void add_open_goals(Json& robots, Choices& choices) {
   constexpr std::size_t kMostPoses = 100;
   constexpr std::size_t kMostRobots = 190;  // with all poses within max_goals
   const std::size_t poses = std::min(robots.size(), 2 + static_cast<std::size_t>(choices.up_to(98)));
   if (poses < 2) return;
-  Json any_of = Json::array();
-  for (std::size_t k = 0; k < std::min(poses, kMostPoses); ++k) {
-    any_of.push_back(robots[(7 * k) % robots.size()]["start"]);
-  }
+  const bool are_own = choices.yes();
   for (std::size_t k = 0; k < robots.size() && k < kMostRobots; ++k) {
     if (!robots[k].contains("goal")) continue;
+    Json any_of = Json::array();
+    for (std::size_t pose = 0; pose < std::min(poses, kMostPoses); ++pose) {
+      any_of.push_back(robots[(7 * pose + (are_own ? k : 0)) % robots.size()]["start"]);
+    }
     for (const char* member : {"x", "y", "theta"}) robots[k]["goal"].erase(member);
-    robots[k]["goal"]["any_of"] = any_of;
+    robots[k]["goal"]["any_of"] = std::move(any_of);
     robots[k]["idle"] = k < poses / 2 ? "stay" : "yield";
   }
 }

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/execution/make_dependencies.h"
-#include "core/execution/simulation/simulation.h"
 #include "core/planner.h"
+#include "tests/core/execution/simulation/study.h"
 #include "tests/support/expect_bounds.h"
 #include "tests/support/expect_safe.h"
 #include "tests/support/random_zones.h"
@@ -194,22 +194,15 @@ TEST_P(FleetWithInertia, IsExecutedByDependenciesWithinItsLimits) {
   const Plan plan = core::plan(problem, options, generous_budget());
   const DependencyRules rules{std::vector<double>(problem.robots().size(), 0.0), 0.1, 1e-6};
   const auto dependencies = make_dependencies(problem.robots(), plan.plans, rules, StopCondition::never());
-  PlannedExecution execution{plan.plans, {}};
-  execution.policy = ExecutionPolicy::dependencies;
+  SimulatedFleet fleet =
+      simulated(problem.grid(), problem.robots(), plan.plans, ExecutionPolicy::dependencies);
   std::vector<std::size_t> plan_of(problem.robots().size(), 0);
-  for (std::size_t k = 0; k < plan.plans.size(); ++k) {
-    plan_of[plan.plans[k].robot] = k;
-    execution.purposes.push_back(
-        wait_purposes(problem.robots()[plan.plans[k].robot], plan.plans[k].actions, 0.0));
-  }
+  for (std::size_t k = 0; k < plan.plans.size(); ++k) plan_of[plan.plans[k].robot] = k;
   for (Dependency dependency : dependencies->list) {
     dependency.gate.robot = plan_of[dependency.gate.robot];
     dependency.until.robot = plan_of[dependency.until.robot];
-    execution.dependencies.push_back(dependency);
+    fleet.execution.dependencies.push_back(dependency);
   }
-  std::vector<double> radii;
-  for (const Robot& robot : problem.robots()) radii.push_back(robot.radius);
-  const SimulatedFleet fleet{problem.grid(), problem.robots(), radii, execution};
   const SimulationSettings settings{late_robots(), 1, static_cast<std::uint64_t>(seed)};
 
   const auto trace = trace_run(fleet, settings, 0, 1'000'000, StopCondition::never());

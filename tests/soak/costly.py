@@ -70,6 +70,13 @@ def planned(statuses, reasons=None, blocked_by=None):
     return fault
 
 
+def planned_or_refused(*codes):
+    """A plan, or a refusal with one of these codes."""
+    def fault(answer):
+        return (planned(["solved", "partial", "none"]) if answer.status == 200 else refused(*codes))(answer)
+    return fault
+
+
 def valid(answer):
     return None if answer.status == 200 and answer.json()["valid"] else f"{answer.status} {answer.body[:200]}"
 
@@ -321,6 +328,34 @@ def image_map(columns, rows, before=b"", inside=b"", behind=b""):
             "robot_defaults": ROBOT, "options": {"time_budget_ms": 100}}
 
 
+def goals_at_one_of_several_poses(robots, poses):
+    """Each robot may be served at other poses than all others."""
+    places = [{"x": 1.0 + 398.0 * (k * 0.618 % 1.0), "y": 1.0 + 398.0 * (k * 0.414 % 1.0)} for k in range(robots * poses)]
+    return {"map": {"rows": ["." * 400] * 400}, "robot_defaults": ROBOT, "options": {"time_budget_ms": 1000},
+            "robots": [{"id": f"r{k}", "start": start, "goal": {"any_of": places[k * poses:(k + 1) * poses]}}
+                       for k, start in enumerate(grid(50, robots, 2.0))]}
+
+
+def drive_of_many_parts(parts):
+    """Translations that follow each other at speed, with a stop every tenth of a second."""
+    def at(k):
+        return {"x": 5.0 + 3000.0 * k / parts, "y": 5.0, "theta": 0.0}
+    # At 1 m/s after a metre, as the robot reaches it at 0.5 m/s per second; it stops within the last metre.
+    accelerates = {"linear_acceleration": 0.5, "linear_deceleration": 0.5}
+    corners = [at(0), {**at(0), "x": 6.0}, *(at(k) for k in range(1, parts) if 6.0 < at(k)["x"] < 3004.0),
+               {**at(0), "x": 3004.0}, at(parts)]
+    actions, now = [], 0.0
+    for k, (here, there) in enumerate(zip(corners, corners[1:])):
+        start, end = float(k > 0), float(k + 2 < len(corners))
+        later = now + (there["x"] - here["x"]) * 2.0 / (start + end)
+        actions.append({"type": "translate", "t_start": now, "t_end": later, "from": here, "to": there,
+                        "profile": {"start": start, "cruise": 1.0, "end": end}})
+        now = later
+    return {"map": {"rows": ["." * 310], "resolution": 10}, "robots": [{"id": "a", "start": at(0), **accelerates}],
+            "robot_defaults": ROBOT, "plans": [{"robot": "a", "actions": actions}], "policy": "open_loop", "runs": 100,
+            "options": {"time_budget_ms": 500}, "disturbance": {"stops": {"rate_per_hour": 36000, "mean_s": 0.001}}}
+
+
 def costly_requests():
     lying = chunk(b"juNk", struct.pack(">II", 2000, 1))
     texts = chunk(b"zTXt", b"k\0\0" + zlib.compress(bytes(3 * MIB), 9)) * 1000
@@ -390,6 +425,11 @@ def costly_requests():
                answered_or_unfinished("seconds")),
         Costly("200,000 tasks", posted(many_tasks(200_000), "/v1/assign"), 1.5, 500,
                refused("parse_unfinished", "check_unfinished", "memory_exceeded")),
+        *(Costly(f"{robots} robots, {poses} poses each", posted(goals_at_one_of_several_poses(robots, poses)), 1.0, 600,
+                 planned_or_refused("parse_unfinished", "memory_exceeded"))
+          for robots, poses in ((2000, 10), (200, 100))),
+        Costly("a drive of 20,000 parts", posted(drive_of_many_parts(20_000), "/v1/simulate"), 0.5, 300,
+               answered_or_unfinished("runs")),
         Costly("1000 robots that accelerate", posted(robots_that_accelerate()), 1.0, 300,
                planned(["solved", "partial", "none"])),
     ]

@@ -30,7 +30,7 @@ const OUTDATED = { width: 1.25, alpha: 0.5, dashes: [3, 4] };
 const FAINT = { width: 1.25, alpha: 0.34 };
 const MANY = 100; // robots: paths of more are fainter, or they would cover the map, and wait until the camera rests
 const FAINTEST = 0.05;
-const PART = 20; // robots that are painted on the backdrop in one go
+const PART = 20; // robots, or poses of which they may choose, that are painted on the backdrop in one go
 
 export class Painter {
   #canvas;
@@ -139,7 +139,7 @@ export class Painter {
     for (const { motion } of this.#scene.obstacles) {
       if (shown) drawPath(context, motion.map(screen), this.#theme.ink, CROSSING);
     }
-    this.#paintAlternatives(context, camera, screen);
+    yield* this.#paintAlternatives(context, camera, screen);
     const faint = pathLine(this.#scene.robots.length);
     for (const [at, robot] of this.#scene.robots.entries()) {
       if (at % PART === 0) yield;
@@ -165,12 +165,13 @@ export class Painter {
   }
 
   /** The poses of which robots may choose: each once, as many of them are those of several robots. */
-  #paintAlternatives(context, { scale }, screen) {
+  *#paintAlternatives(context, { scale }, screen) {
     const painted = new Set();
     for (const { alternatives, radius } of this.#scene.robots) {
       for (const pose of alternatives.flat()) {
         const place = pose && `${pose.x} ${pose.y}`;
         if (place === null || painted.has(place)) continue;
+        if (painted.size % PART === 0) yield;
         painted.add(place);
         drawAlternative(context, this.#theme, screen(pose), radius * scale);
       }

@@ -346,14 +346,11 @@ class RobotReader {
     const auto speed = member.number(kMeasuredSpeed);
     const core::Robot& robot = read.robot;
     if (!speed || !robot.linear_inertia().is_limited) return;
-    double begins = 0.0;
-    if (!robot.committed.empty() && robot.committed.front().type == core::Action::Type::translate) {
-      const core::Action& first = robot.committed.front();
-      if (!first.profile) return;  // measured
-      begins = first.reverse ? -first.profile->start : first.profile->start;
-    } else if (read.committed && robot.committed.empty() && read.committed.array().size() > 0) {
-      return;  // at fault
-    }
+    const bool is_at_fault = robot.committed.empty() && read.committed && read.committed.array().size() > 0;
+    const bool is_measured = !robot.committed.empty() && !robot.committed.front().profile &&
+                             robot.committed.front().type == core::Action::Type::translate;
+    if (is_at_fault || is_measured) return;
+    const double begins = robot.committed_speed();
     if (std::abs(*speed - begins) <= core::kContactTolerance) return;
     member.fault(fault::kProfile, [&] {
       return "The robot starts at a speed of " + number_text(*speed) + ", but " +

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/execution/drive.h"
 #include "core/runtime/random.h"
 
 namespace fleetplan::core {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "api/endpoints/endpoints.h"
+#include "tests/api/support/answers.h"
 #include "tests/api/support/requests.h"
 
 namespace fleetplan::api {
@@ -21,17 +22,8 @@ Json request_with_inertia() {
   return request;
 }
 
-Json plan_of(const Json& request) {
-  const Reply reply = plan_endpoint(request.dump(), {});
-  EXPECT_EQ(reply.status, 200) << reply.body;
-  return json_of(reply);
-}
-
-Json verdict_on(Json request, const Json& plans) {
-  request["plans"] = plans;
-  const Reply reply = validate_endpoint(request.dump(), {});
-  EXPECT_EQ(reply.status, 200) << reply.body;
-  return json_of(reply);
+Json verdict_on(const Json& request, const Json& plans) {
+  return verdict_of(request, Json::object({{"plans", plans}}));
 }
 
 /// A corridor, 20 m long, with one robot that drives along it: 2 m/s after 2 m, and 4 m to stop.
@@ -40,14 +32,6 @@ Json corridor() {
     "map": {"rows": ["....................", "...................."]},
     "robots": [{"id": "a", "radius": 0.4, "linear_speed": 2.0, "angular_speed": 2.0, "linear_acceleration": 1.0,
                 "linear_deceleration": 0.5, "start": {"x": 0.5, "y": 0.5}, "goal": {"x": 18.5, "y": 0.5}}]})");
-}
-
-Json advanced(const Json& request, const Json& answer, double at, const Json& more = Json::object()) {
-  Json body{{"request", request}, {"plans", answer["plans"]}, {"at", at}};
-  body.update(more);
-  const Reply reply = advance_endpoint(body.dump(), {});
-  EXPECT_EQ(reply.status, 200) << reply.body;
-  return json_of(reply);
 }
 
 TEST(Accelerations, MakeProfilesOfEveryMove) {
@@ -189,12 +173,6 @@ Json with_dependencies(Json request) {
   return request;
 }
 
-Json reply_of(Reply (*endpoint)(std::string_view, const RequestContext&), const Json& request) {
-  const Reply reply = endpoint(request.dump(), {});
-  EXPECT_EQ(reply.status, 200) << reply.body;
-  return json_of(reply);
-}
-
 TEST(Simulation, FollowsProfiles) {
   Json plain = request_with_inertia();
   plain["tolerance"] = 1e-5;  // dependencies use the tolerance of the plan
@@ -203,19 +181,19 @@ TEST(Simulation, FollowsProfiles) {
   request["trace"] = 3;
   for (const char* policy : {"open_loop", "absorb_waits", "dependencies"}) {
     request["policy"] = policy;
-    const Json undisturbed = reply_of(simulate_endpoint, request);
+    const Json undisturbed = answer_of(simulate_endpoint, request);
     EXPECT_TRUE(undisturbed["warnings"].empty()) << undisturbed["warnings"];
     EXPECT_EQ(undisturbed["collision_share"], 0.0);
     EXPECT_EQ(verdict_on(plain, undisturbed["trace"]["plans"])["valid"], true) << policy;
   }
   request["disturbance"] = Json::parse(R"({"speed": {"min": 0.4, "max": 0.8}, "turn": {"min": 0.6, "max": 1},
     "stops": {"rate_per_hour": 900, "mean_s": 2}, "start_delay": {"min": 0, "max": 0.2}})");
-  const Json late = reply_of(simulate_endpoint, request);
+  const Json late = answer_of(simulate_endpoint, request);
   EXPECT_EQ(late["collision_share"], 0.0);
   EXPECT_EQ(late["deadlock_share"], 0.0);
   EXPECT_GT(late["flowtime"]["mean"], late["planned"]["flowtime"]);
   EXPECT_EQ(verdict_on(plain, late["trace"]["plans"])["valid"], true);
-  EXPECT_EQ(reply_of(simulate_endpoint, request)["trace"], late["trace"]);
+  EXPECT_EQ(answer_of(simulate_endpoint, request)["trace"], late["trace"]);
 }
 
 TEST(Retime, TakesTimeToStartAgain) {
@@ -225,10 +203,10 @@ TEST(Retime, TakesTimeToStartAgain) {
   request.erase("map");
   request["at"] = 5.0;
   request["states"] = Json::array();
-  EXPECT_NEAR(reply_of(retime_endpoint, request)["robots"][0]["t_end"], 12.0, 1e-9);
+  EXPECT_NEAR(answer_of(retime_endpoint, request)["robots"][0]["t_end"], 12.0, 1e-9);
   // At 8.5 m, with 10 m to go, it is held for 2 s.
   request["states"] = {{{"robot", "a"}, {"action", 0}, {"progress", 8.0 / 18.0}, {"held_s", 2.0}}};
-  EXPECT_NEAR(reply_of(retime_endpoint, request)["robots"][0]["t_end"], 5 + 2 + 10.0 / 2 + 1 + 2, 1e-9);
+  EXPECT_NEAR(answer_of(retime_endpoint, request)["robots"][0]["t_end"], 5 + 2 + 10.0 / 2 + 1 + 2, 1e-9);
 }
 
 TEST(Advance, TellsTheSpeedAtTheStart) {

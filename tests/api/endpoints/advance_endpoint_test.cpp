@@ -9,20 +9,15 @@
 #include <vector>
 
 #include "api/endpoints/endpoints.h"
+#include "tests/api/support/answers.h"
 #include "tests/api/support/requests.h"
 #include "tests/api/support/test_turn.h"
 
 namespace fleetplan::api {
 namespace TEST_FILE {
 
-Json planned(const Json& request) {
-  const Reply reply = plan_endpoint(request.dump(), {});
-  EXPECT_EQ(reply.status, 200) << reply.body;
-  return json_of(reply);
-}
-
 Json advance_request(const Json& request, double at) {
-  return {{"request", request}, {"plans", planned(request)["plans"]}, {"at", at}};
+  return {{"request", request}, {"plans", plan_of(request)["plans"]}, {"at", at}};
 }
 
 Json advanced_json(const Json& body) {
@@ -219,7 +214,7 @@ TEST(AdvanceEndpoint, ALateServiceIsNotLost) {
   ASSERT_EQ(robot["goals"].size(), 2U);
   EXPECT_EQ(robot["goals"][0]["service"], 7.0);
   EXPECT_EQ(robot["committed"].back()["t_end"], 2.0);
-  const Json plan = planned(next)["plans"][0];
+  const Json plan = plan_of(next)["plans"][0];
   EXPECT_EQ(plan["visits"][0]["t_leave"], 7.0);
   EXPECT_EQ(nlohmann::json(plan["actions"]), nlohmann::json(robot["previous"])) << "in whatever order";
   EXPECT_EQ(next["progress"], Json::parse(R"([{"robot": "a", "was": {"action": 1, "progress": 0.3},
@@ -229,7 +224,7 @@ TEST(AdvanceEndpoint, ALateServiceIsNotLost) {
 TEST(AdvanceEndpoint, TheProgressOfAnAnswerIsIgnoredByAllThatTakeARequest) {
   Json next = advanced_json(advance_request(swap_request(), 1.0));
   ASSERT_EQ(next["progress"].size(), 2U);
-  const Json answer = planned(next);
+  const Json answer = plan_of(next);
   for (const Json& progress : {next["progress"], Json("of an earlier moment")}) {
     next["progress"] = progress;
     Json again = advanced_json({{"request", next}, {"plans", answer["plans"]}, {"at", 0.5}});
@@ -287,7 +282,7 @@ TEST(AdvanceEndpoint, RobotsThatAreMeasuredInEachOtherAreNamedAndMayPart) {
   const double overlap = 0.6 - std::hypot(0.1, 0.5);
   EXPECT_NEAR(next["options"]["start_overlap"].get<double>(), overlap + 0.1, 1e-9);
   EXPECT_EQ(next["options"]["inflation"], 0.05);
-  EXPECT_EQ(planned(next)["status"], "solved");
+  EXPECT_EQ(plan_of(next)["status"], "solved");
   body["request"]["options"]["start_overlap"] = 0.5;
   EXPECT_EQ(advanced_json(body)["options"]["start_overlap"], 0.5);
   body["poses"] = Json::parse(R"([{"robot": "a", "x": 4.9, "y": 2.5, "theta": 0}])");
@@ -302,7 +297,7 @@ TEST(AdvanceEndpoint, ARobotThatWouldDriveIntoAWallIsNotCommittedToIt) {
   EXPECT_FALSE(next["robots"][0].contains("committed")) << next;
   EXPECT_TRUE(next["robots"][1].contains("committed"));
   EXPECT_FALSE(next["options"].contains("start_overlap"));
-  EXPECT_EQ(planned(next)["status"], "solved");
+  EXPECT_EQ(plan_of(next)["status"], "solved");
 }
 
 TEST(AdvanceEndpoint, ARobotThatIsMeasuredInAWallIsAccepted) {
@@ -310,11 +305,11 @@ TEST(AdvanceEndpoint, ARobotThatIsMeasuredInAWallIsAccepted) {
   body["poses"] = Json::parse(R"([{"robot": "a", "x": 5.2, "y": 2.1, "theta": 0}])");
   const Json beside = advanced_json(body);
   EXPECT_NEAR(beside["options"]["start_overlap"].get<double>(), 0.25, 1e-6);
-  planned(beside);
+  plan_of(beside);
   body["poses"][0]["y"] = 1.5;
   const Json inside = advanced_json(body);
   EXPECT_EQ(inside["options"]["invalid_robots"], "report");
-  EXPECT_EQ(planned(inside)["unplanned"][0]["reason"], "invalid");
+  EXPECT_EQ(plan_of(inside)["unplanned"][0]["reason"], "invalid");
 }
 
 /// Whether disks overlap by more than contact, if robots execute their commitments and then stand.
@@ -403,7 +398,7 @@ TEST(AdvanceEndpoint, CommitmentsNeverMeet) {
   for (const auto& [a, b] : {std::pair{0U, 1U}, std::pair{0U, 2U}, std::pair{1U, 2U}}) {
     EXPECT_FALSE(meet(next, a, b)) << a << " and " << b << ": " << next;
   }
-  EXPECT_FALSE(planned(next).contains("unavoidable"));
+  EXPECT_FALSE(plan_of(next).contains("unavoidable"));
 }
 
 /// A robot drives along a corridor with a zone in it, and is measured in the zone.

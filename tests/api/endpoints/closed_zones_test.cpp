@@ -5,6 +5,7 @@
 #include <string>
 
 #include "api/endpoints/endpoints.h"
+#include "tests/api/support/answers.h"
 #include "tests/api/support/requests.h"
 
 namespace fleetplan::api {
@@ -25,19 +26,13 @@ Json hall_request() {
       {"x": 104, "y": 51}, {"x": 109, "y": 51}, {"x": 109, "y": 54}, {"x": 104, "y": 54}]}]})");
 }
 
-Json planned(const Json& request) {
-  const Reply reply = plan_endpoint(request.dump(), {});
-  EXPECT_EQ(reply.status, 200) << reply.body;
-  return json_of(reply);
-}
-
 Json merged(Json request, const Json& answer) {
   for (const auto& [key, value] : answer.items()) request[key] = value;
   return request;
 }
 
 TEST(ClosedZones, AnswersTellWhichGoalsArePutOff) {
-  const Json answer = planned(hall_request());
+  const Json answer = plan_of(hall_request());
   EXPECT_EQ(answer["status"], "solved");
   const Json& in = answer["plans"][0];
   EXPECT_FALSE(in.contains("ends_at"));
@@ -56,7 +51,7 @@ TEST(ClosedZones, AnswersTellWhichGoalsArePutOff) {
 
 TEST(ClosedZones, TheSamePlansAreValidForTheCheck) {
   const Json request = hall_request();
-  const Json answer = planned(request);
+  const Json answer = plan_of(request);
   const Reply reply = validate_endpoint(merged(request, answer).dump(), {});
   EXPECT_EQ(json_of(reply)["valid"], true) << reply.body;
   Json other = merged(request, answer);
@@ -69,31 +64,31 @@ TEST(ClosedZones, TheSamePlansAreValidForTheCheck) {
 
 TEST(ClosedZones, ALaterMomentKeepsTheGoalsThatArePutOff) {
   Json request = hall_request();
-  const Json answer = planned(request);
+  const Json answer = plan_of(request);
   for (const double at : {0.5, 2.0, 7.0, 60.0}) {
     const Json body{{"request", request}, {"plans", answer["plans"]}, {"at", at}, {"commit", 1.0}};
     const Reply reply = advance_endpoint(body.dump(), {});
     ASSERT_EQ(reply.status, 200) << reply.body;
     Json next = json_of(reply);
     EXPECT_EQ(next["zones"], request["zones"]);
-    const Json later = planned(next);
+    const Json later = plan_of(next);
     EXPECT_EQ(later["status"], "solved") << later;
     EXPECT_EQ(later["plans"][1]["ends_at"], "zone");
     EXPECT_EQ(later["plans"][1]["visits"].back()["reason"], "goal_before");
     next.erase("zones");
-    EXPECT_FALSE(planned(next)["plans"][1].contains("ends_at")) << "open again";
+    EXPECT_FALSE(plan_of(next)["plans"][1].contains("ends_at")) << "open again";
   }
 }
 
 TEST(ClosedZones, AZoneOverARobotUnderWayRefusesNothing) {
   Json request = hall_request();
   request.erase("zones");
-  const Json answer = planned(request);
+  const Json answer = plan_of(request);
   for (double at = 0.5; at < 12.0; at += 0.5) {
     const Json body{{"request", request}, {"plans", answer["plans"]}, {"at", at}, {"commit", 1.0}};
     Json next = json_of(advance_endpoint(body.dump(), {}));
     next["zones"] = hall_request()["zones"];
-    const Json later = planned(next);
+    const Json later = plan_of(next);
     EXPECT_EQ(later["status"], "solved") << at << ": " << later;
     const Reply check = validate_endpoint(merged(next, later).dump(), {});
     EXPECT_EQ(json_of(check)["valid"], true) << at << ": " << check.body;
@@ -103,7 +98,7 @@ TEST(ClosedZones, AZoneOverARobotUnderWayRefusesNothing) {
 TEST(ClosedZones, ARobotThatLeavesWithoutAnotherGoalRestsOutside) {
   Json request = hall_request();
   request["robots"][0]["goal"] = {{"x", 105.5}, {"y", 52.5}};
-  const Json answer = planned(request);
+  const Json answer = plan_of(request);
   const Json& in = answer["plans"][0];
   EXPECT_EQ(in["ends_at"], "zone");
   EXPECT_EQ(in["visits"], Json::parse(R"([{"goal": 0, "t_arrive": null, "t_leave": null,
@@ -124,13 +119,13 @@ TEST(ClosedZones, ARobotThatIsParkedOnTheOnlyWayOutIsNamed) {
   for (const double goal : {2.5, 10.5}) {  // inside, so that it is put off, and outside
     request["robots"][0]["goal"]["x"] = goal;
     request["options"] = Json::object();
-    const Json in = planned(request)["unplanned"][0];
+    const Json in = plan_of(request)["unplanned"][0];
     EXPECT_EQ(in["robot"], "in");
     EXPECT_EQ(in["reason"], "blocked_by_robots");
     EXPECT_EQ(in["blocked_by"], Json({"parked"}));
 
     request["options"]["horizon"] = 5.0;
-    const Json waits = planned(request)["plans"][0];
+    const Json waits = plan_of(request)["plans"][0];
     EXPECT_EQ(waits["stuck"], true);
     EXPECT_EQ(waits["blocked_by"], Json({"parked"}));
   }

@@ -11,6 +11,7 @@
 
 #include "api/endpoints/endpoints.h"
 #include "core/runtime/work.h"
+#include "tests/api/support/answers.h"
 #include "tests/api/support/motion_requests.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/step_limit.h"
@@ -52,12 +53,6 @@ Json everything() {
                 "interval_margin": 0.2, "wait_before_move": 0.2, "start_overlap": 0.2,
                 "invalid_robots": "report", "dependencies": true, "seed": 3},
     "metadata": {"shift": 2}})");
-}
-
-Json answer_of(Endpoint endpoint, const Json& body) {
-  const Reply reply = endpoint(body.dump(), {});
-  EXPECT_EQ(reply.status, 200) << reply.body << "\n" << body;
-  return json_of(reply);
 }
 
 Json planned() {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "api/endpoints/endpoints.h"
+#include "tests/api/support/answers.h"
 #include "tests/api/support/fault_case.h"
 
 namespace fleetplan::api {
@@ -28,15 +29,9 @@ Json tagged_request() {
   return request;
 }
 
-Json planned(const Json& request) {
-  const Reply reply = plan_endpoint(request.dump(), {});
-  EXPECT_EQ(reply.status, 200) << reply.body;
-  return json_of(reply);
-}
-
 TEST(Metadata, IsRepeatedWhereItIs) {
   const Json request = tagged_request();
-  const Json answer = planned(request);
+  const Json answer = plan_of(request);
   EXPECT_EQ(answer["metadata"], request["metadata"]);
   ASSERT_EQ(answer["plans"].size(), 2U);
   EXPECT_EQ(answer["plans"][0]["metadata"], Json::object());
@@ -49,19 +44,19 @@ TEST(Metadata, IsRepeatedWhereItIs) {
 TEST(Metadata, OfARobotWithoutAPlanIsRepeated) {
   Json request = tagged_request();
   request["options"] = {{"inflation", 0.4}};
-  const Json answer = planned(request);
+  const Json answer = plan_of(request);
   ASSERT_FALSE(answer["unplanned"].empty());
   EXPECT_EQ(answer["unplanned"].back()["robot"], "b");
   EXPECT_EQ(answer["unplanned"].back()["metadata"], request["robots"][1]["metadata"]);
 }
 
 TEST(Metadata, ChangesNothingElse) {
-  const Json with = planned(tagged_request());
+  const Json with = plan_of(tagged_request());
   Json request = tagged_request();
   request.erase("metadata");
   for (Json& one : request["robots"]) one.erase("metadata");
   request["robots"][0]["goals"][1].erase("metadata");
-  const Json without = planned(request);
+  const Json without = plan_of(request);
   EXPECT_EQ(with["plans"][0]["actions"], without["plans"][0]["actions"]);
   EXPECT_FALSE(without.contains("metadata"));
   EXPECT_FALSE(without["plans"][0].contains("metadata"));
@@ -69,7 +64,7 @@ TEST(Metadata, ChangesNothingElse) {
 
 TEST(Metadata, OfAnAnswerMergedIntoItsRequestIsIgnored) {
   Json request = tagged_request();
-  const Json answer = planned(request);
+  const Json answer = plan_of(request);
   for (const auto& member : answer.items()) request[member.key()] = member.value();
   const Reply reply = validate_endpoint(request.dump(), {});
   EXPECT_EQ(reply.status, 200) << reply.body;
@@ -78,7 +73,7 @@ TEST(Metadata, OfAnAnswerMergedIntoItsRequestIsIgnored) {
 
 TEST(Metadata, IsCarriedOverToTheNextMoment) {
   const Json request = tagged_request();
-  const Json plans = planned(request)["plans"];
+  const Json plans = plan_of(request)["plans"];
   const double arrives = plans[0]["visits"][0]["t_arrive"];
   const Json body = {{"request", request}, {"plans", plans}, {"at", arrives + 0.5}};
   const Reply reply = advance_endpoint(body.dump(), {});
@@ -92,7 +87,7 @@ TEST(Metadata, IsCarriedOverToTheNextMoment) {
 
 TEST(Metadata, OfOtherGoalsReplacesThatOfThoseLeft) {
   const Json request = tagged_request();
-  Json body = {{"request", request}, {"plans", planned(request)["plans"]}, {"at", 1.0}};
+  Json body = {{"request", request}, {"plans", plan_of(request)["plans"]}, {"at", 1.0}};
   body["goals"] =
       Json::parse(R"([{"robot": "a", "goals": [{"x": 1.5, "y": 0.5, "metadata": {"task": 7}}]}])");
   const Reply reply = advance_endpoint(body.dump(), {});

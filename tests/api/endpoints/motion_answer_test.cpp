@@ -5,26 +5,13 @@
 #include <gtest/gtest.h>
 
 #include "api/endpoints/endpoints.h"
+#include "tests/api/support/answers.h"
 #include "tests/api/support/fault_case.h"
 #include "tests/api/support/motion_requests.h"
 
 namespace fleetplan::api {
 
 namespace TEST_FILE {
-
-Json answer_of(const Json& request) {
-  const Reply reply = plan_endpoint(request.dump(), {});
-  EXPECT_EQ(reply.status, 200) << reply.body;
-  return json_of(reply);
-}
-
-/// The verdict on an answer that is merged into its request.
-Json verdict_of(Json request, const Json& answer) {
-  request.update(answer);
-  const Reply reply = validate_endpoint(request.dump(), {});
-  EXPECT_EQ(reply.status, 200) << reply.body;
-  return json_of(reply);
-}
 
 void move_by(Json& position, double x, double y) {
   position["x"] = position["x"].get<double>() + x;
@@ -46,7 +33,7 @@ Json far_away() {
 
 TEST(MotionAnswer, BeginsWithTheCommittedActionsAsReceived) {
   for (const Json& request : {moving_request(), far_away()}) {
-    const Json answer = answer_of(request);
+    const Json answer = plan_of(request);
     ASSERT_EQ(answer["status"], "solved") << answer.dump();
     const Json& actions = answer["plans"][0]["actions"];
     ASSERT_GT(actions.size(), 2U);
@@ -66,7 +53,7 @@ TEST(MotionAnswer, ListsTheVisitsOfGoals) {
   request["robots"][0].erase("goal");
   request["robots"][0]["goals"] =
       Json::parse(R"([{"x": 2.5, "y": 1.5, "service": 4}, {"x": 8.5, "y": 1.5, "service": 2}])");
-  const Json answer = answer_of(request);
+  const Json answer = plan_of(request);
   ASSERT_EQ(answer["status"], "solved") << answer.dump();
   const Json& plan = answer["plans"][0];
   ASSERT_EQ(plan["visits"].size(), 2U);
@@ -81,13 +68,13 @@ TEST(MotionAnswer, ListsTheVisitsOfGoals) {
 
 TEST(MotionAnswer, TellsHowLateRobotsAre) {
   Json request = swap_request();
-  EXPECT_FALSE(answer_of(request).contains("objective_value"));
+  EXPECT_FALSE(plan_of(request).contains("objective_value"));
   request["options"]["objective"] = "tardiness";
-  EXPECT_EQ(answer_of(request)["objective_value"], 0.0) << "nothing is due";
+  EXPECT_EQ(plan_of(request)["objective_value"], 0.0) << "nothing is due";
   request["robots"][0]["goal"]["due"] = -2.0;
   request["robots"][0]["weight"] = 3.0;
   request["robots"][1]["goal"]["due"] = 1000.0;
-  const Json answer = answer_of(request);
+  const Json answer = plan_of(request);
   ASSERT_EQ(answer["status"], "solved") << answer.dump();
   const Json& visit = answer["plans"][0]["visits"][0];
   const double late = visit["t_arrive"].get<double>() + 2.0;
@@ -100,7 +87,7 @@ TEST(MotionAnswer, TellsHowLateRobotsAre) {
 TEST(MotionAnswer, CountsCostsByWeight) {
   Json request = swap_request();
   request["robots"][1]["weight"] = 0.5;
-  const Json answer = answer_of(request);
+  const Json answer = plan_of(request);
   ASSERT_EQ(answer["status"], "solved") << answer.dump();
   const double first = answer["plans"][0]["cost"].get<double>();
   const double second = answer["plans"][1]["cost"].get<double>();
@@ -113,7 +100,7 @@ TEST(MotionAnswer, EstimatesHowLateRobotsAreBeyondTheHorizon) {
   request["options"]["horizon"] = 1.0;
   request["options"]["objective"] = "tardiness";
   request["robots"][0]["goal"]["due"] = 0.0;
-  const Json answer = answer_of(request);
+  const Json answer = plan_of(request);
   const Json& visit = answer["plans"][0]["visits"][0];
   EXPECT_EQ(visit["t_arrive"], nullptr);
   EXPECT_EQ(visit["late_by"], visit["estimated_t_arrive"]);
@@ -140,9 +127,9 @@ Json advanced_request(const Json& request, const Json& answer, double at) {
 
 TEST(MotionAnswer, OfAnIdleRobotThatYieldsHasItsWay) {
   Json request = corridor_request();
-  EXPECT_EQ(answer_of(request)["status"], "partial") << "by default it stays";
+  EXPECT_EQ(plan_of(request)["status"], "partial") << "by default it stays";
   request["robots"][1]["idle"] = "yield";
-  const Json answer = answer_of(request);
+  const Json answer = plan_of(request);
   ASSERT_EQ(answer["status"], "solved") << answer.dump();
   const Json& yields = answer["plans"][1];
   EXPECT_FALSE(yields.contains("visits"));
@@ -153,13 +140,13 @@ TEST(MotionAnswer, OfAnIdleRobotThatYieldsHasItsWay) {
   EXPECT_FALSE(later["robots"][1].contains("goal"));
   EXPECT_FALSE(later["robots"][1].contains("goals"));
   EXPECT_EQ(later["robots"][1]["idle"], "yield");
-  EXPECT_EQ(answer_of(later)["plans"][1]["actions"], Json::array()) << "nobody needs the bay";
+  EXPECT_EQ(plan_of(later)["plans"][1]["actions"], Json::array()) << "nobody needs the bay";
 }
 
 TEST(MotionAnswer, OfAnIdleRobotThatReturnsComesBack) {
   Json request = corridor_request();
   request["robots"][1]["idle"] = "return";
-  const Json answer = answer_of(request);
+  const Json answer = plan_of(request);
   ASSERT_EQ(answer["status"], "solved") << answer.dump();
   EXPECT_EQ(answer["plans"][1]["actions"].back()["to"]["x"], 7.5);
   EXPECT_EQ(verdict_of(request, answer)["violations"], Json::array());
@@ -174,7 +161,7 @@ TEST(MotionAnswer, RobotsThatYieldMayShareTheirLastGoal) {
     robot.erase("goal");
     robot["idle"] = "yield";
   }
-  const Json answer = answer_of(request);
+  const Json answer = plan_of(request);
   ASSERT_EQ(answer["status"], "solved") << answer.dump();
   for (const Json& plan : answer["plans"]) {
     ASSERT_EQ(plan["visits"].size(), 1U);
@@ -188,7 +175,7 @@ TEST(MotionAnswer, RobotsThatYieldMayShareTheirLastGoal) {
 TEST(MotionAnswer, ARobotThatIsToStayHasNoGoalOnceItIsServed) {
   Json request = swap_request();
   request["robots"][0]["idle"] = "stay";
-  const Json answer = answer_of(request);
+  const Json answer = plan_of(request);
   const Json later = advanced_request(request, answer, answer["makespan"].get<double>() + 1.0);
   EXPECT_FALSE(later["robots"][0].contains("goal"));
   EXPECT_TRUE(later["robots"][1].contains("goal"));
@@ -199,7 +186,7 @@ TEST(MotionAnswer, OfAnUnplannedRobotHasItsCommittedActions) {
   Json request = moving_request();
   request["robots"][0]["committed"].erase(1);
   request["map"]["rows"] = {".......#.", "....#..#.", "....#..#.", ".......#."};
-  const Json answer = answer_of(request);
+  const Json answer = plan_of(request);
   ASSERT_EQ(answer["status"], "none") << answer.dump();
   EXPECT_EQ(answer["unplanned"][0]["actions"], request["robots"][0]["committed"]);
   EXPECT_FALSE(answer["unplanned"][1].contains("actions"));
@@ -245,7 +232,7 @@ TEST(MotionAnswer, ReportsInvalidRobotsWithTheirErrors) {
 TEST(MotionAnswer, KeepsClearOfMovingObstacles) {
   Json request = swap_request();
   request["obstacles"] = Json::array({obstacle()});
-  const Json answer = answer_of(request);
+  const Json answer = plan_of(request);
   EXPECT_EQ(answer["status"], "solved") << answer.dump();
   EXPECT_EQ(verdict_of(request, answer)["violations"], Json::array());
 }
@@ -267,7 +254,7 @@ TEST(MotionAnswer, IsCheckedAgainstMovingObstacles) {
 TEST(MotionAnswer, SaysWhereAPlanStopsAtTheHorizon) {
   Json request = swap_request();
   request["options"]["horizon"] = 3.0;
-  const Json answer = answer_of(request);
+  const Json answer = plan_of(request);
   ASSERT_EQ(answer["status"], "solved") << answer.dump();
   for (const Json& plan : answer["plans"]) {
     EXPECT_EQ(plan["ends_at"], "horizon");
@@ -282,11 +269,11 @@ TEST(MotionAnswer, SaysWhereAPlanStopsAtTheHorizon) {
   EXPECT_EQ(verdict_of(request, answer)["violations"], Json::array());
   request["options"]["horizon"] = 30.0;
   EXPECT_EQ(verdict_of(request, answer)["violations"][0]["kind"], "wrong_goal");
-  const Json whole = answer_of(request);
+  const Json whole = plan_of(request);
   for (const Json& plan : whole["plans"]) EXPECT_FALSE(plan.contains("ends_at"));
   EXPECT_EQ(whole["estimated"]["flowtime"], whole["flowtime"]);
   request["options"].erase("horizon");
-  EXPECT_FALSE(answer_of(request).contains("estimated"));
+  EXPECT_FALSE(plan_of(request).contains("estimated"));
 }
 
 using testing::HasSubstr;
@@ -305,7 +292,7 @@ Json queue_request() {
 TEST(MotionAnswer, EstimatesWhenGoalsBeyondTheHorizonAreVisited) {
   Json request = queue_request();
   request["robots"].erase(1);
-  const Json answer = answer_of(request);
+  const Json answer = plan_of(request);
   EXPECT_EQ(answer["warnings"], Json::array());
   const Json& plan = answer["plans"][0];
   EXPECT_FALSE(plan.contains("stuck"));
@@ -322,7 +309,7 @@ TEST(MotionAnswer, EstimatesWhenGoalsBeyondTheHorizonAreVisited) {
 
 TEST(MotionAnswer, SaysWhoIsStuckAndWhy) {
   const Json request = queue_request();
-  const Json answer = answer_of(request);
+  const Json answer = plan_of(request);
   const Json& plan = answer["plans"][0];
   EXPECT_EQ(plan["stuck"], true);
   EXPECT_EQ(plan["blocked_by"], Json::array({"b"}));
@@ -350,7 +337,7 @@ TEST(MotionAnswer, NamesTheFirstFewRobotsThatAreStuck) {
         {{"id", "a" + name}, {"start", {{"x", 2.5}, {"y", y}}}, {"goal", {{"x", 7.5}, {"y", y}}}});
     request["robots"].push_back({{"id", "b" + name}, {"start", {{"x", 3.5}, {"y", y}}}});
   }
-  const Json answer = answer_of(request);
+  const Json answer = plan_of(request);
   EXPECT_THAT(answer["warnings"][0].get<std::string>(),
               HasSubstr(R"(: "a0", "a1", "a2", "a3", "a4" and 1 more.)"));
 }
@@ -363,13 +350,8 @@ Json backing_request() {
     "robots": [{"id": "a", "start": {"x": 6.6, "y": 0.7, "theta": 0.0}, "goal": {"x": 0.6, "y": 0.7}}]})");
 }
 
-Json answered(const Reply& reply) {
-  EXPECT_EQ(reply.status, 200) << reply.body;
-  return json_of(reply);
-}
-
 TEST(Reverse, ThePlanHasATranslationBackwards) {
-  const Json answer = answered(plan_endpoint(backing_request().dump(), {}));
+  const Json answer = plan_of(backing_request());
   const Json& actions = answer["plans"][0]["actions"];
   ASSERT_EQ(actions.size(), 1U);
   EXPECT_EQ(actions[0]["type"], "translate");
@@ -380,30 +362,30 @@ TEST(Reverse, ThePlanHasATranslationBackwards) {
 TEST(Reverse, ARobotThatMayNotTurns) {
   Json request = backing_request();
   request["robots"][0]["may_reverse"] = false;
-  const Json answer = answered(plan_endpoint(request.dump(), {}));
+  const Json answer = plan_of(request);
   ASSERT_EQ(answer["plans"][0]["actions"].size(), 2U);
   EXPECT_FALSE(answer["plans"][0]["actions"][1].contains("reverse"));
 }
 
 TEST(Reverse, ThePlanIsValidForRobotsThatMayOnly) {
   Json request = backing_request();
-  request["plans"] = answered(plan_endpoint(request.dump(), {}))["plans"];
-  EXPECT_EQ(answered(validate_endpoint(request.dump(), {}))["valid"], true);
+  request["plans"] = plan_of(request)["plans"];
+  EXPECT_EQ(answer_of(validate_endpoint, request)["valid"], true);
   request["robots"][0]["may_reverse"] = false;
-  const Json verdict = answered(validate_endpoint(request.dump(), {}));
+  const Json verdict = answer_of(validate_endpoint, request);
   ASSERT_EQ(verdict["violations"].size(), 1U);
   EXPECT_EQ(verdict["violations"][0]["kind"], "speed");
 }
 
 TEST(Reverse, AMoveBackwardsUnderWayGoesOn) {
   const Json request = backing_request();
-  const Json answer = answered(plan_endpoint(request.dump(), {}));
+  const Json answer = plan_of(request);
   const Json body = {{"request", request}, {"plans", answer["plans"]}, {"at", 2.0}};
-  const Json next = answered(advance_endpoint(body.dump(), {}));
+  const Json next = answer_of(advance_endpoint, body);
   EXPECT_EQ(next["robots"][0]["committed"][0]["reverse"], true);
   EXPECT_EQ(next["robots"][0]["previous"][0]["reverse"], true);
   EXPECT_EQ(next["robot_defaults"]["may_reverse"], true);
-  const Json again = answered(plan_endpoint(next.dump(), {}));
+  const Json again = plan_of(next);
   ASSERT_EQ(again["plans"][0]["actions"].size(), 1U);
   EXPECT_EQ(again["plans"][0]["actions"][0]["reverse"], true);
   EXPECT_EQ(again["plans"][0]["actions"][0]["t_end"], 4.0);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "api/endpoints/endpoints.h"
+#include "tests/api/support/answers.h"
 #include "tests/api/support/fault_case.h"
 #include "tests/api/support/motion_requests.h"
 
@@ -18,26 +19,6 @@ namespace TEST_FILE {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Pair;
-
-Json answer_of(const Json& request) {
-  const Reply reply = plan_endpoint(request.dump(), {});
-  EXPECT_EQ(reply.status, 200) << reply.body;
-  return json_of(reply);
-}
-
-Json violations_of(Json request, const Json& answer) {
-  request.update(answer);
-  const Reply reply = validate_endpoint(request.dump(), {});
-  EXPECT_EQ(reply.status, 200) << reply.body;
-  return json_of(reply)["violations"];
-}
-
-Json later_request(const Json& request, const Json& answer, double at) {
-  const Reply reply =
-      advance_endpoint(Json({{"request", request}, {"plans", answer["plans"]}, {"at", at}}).dump(), {});
-  EXPECT_EQ(reply.status, 200) << reply.body;
-  return json_of(reply);
-}
 
 /// Docks at x = 8.5, one above the other from y = 0.5 on.
 Json docks(int count) {
@@ -65,36 +46,36 @@ Json choice(const Json& answer, std::size_t robot, std::size_t visit = 0) {
 
 TEST(OpenGoals, TheNearestPoseIsChosenAndTold) {
   const Json request = dock_request({2.5}, 5);
-  const Json answer = answer_of(request);
+  const Json answer = plan_of(request);
   EXPECT_EQ(choice(answer, 0), 2);
   EXPECT_EQ(answer["plans"][0]["cost"], 8.0);
   EXPECT_EQ(answer["plans"][0]["actions"].back()["to"]["y"], 2.5);
-  EXPECT_EQ(violations_of(request, answer), Json::array());
+  EXPECT_EQ(verdict_of(request, answer)["violations"], Json::array());
 }
 
 TEST(OpenGoals, BiasCountsInTheChoiceAndNotInTimes) {
   Json request = dock_request({2.5}, 5);
   request["robots"][0]["goal"]["any_of"][2]["bias"] = 0.1;
-  EXPECT_EQ(choice(answer_of(request), 0), 2) << "a turn to another one takes longer";
+  EXPECT_EQ(choice(plan_of(request), 0), 2) << "a turn to another one takes longer";
   request["robots"][0]["goal"]["any_of"][2]["bias"] = 60;
-  const Json answer = answer_of(request);
+  const Json answer = plan_of(request);
   EXPECT_NE(choice(answer, 0), 2);
   EXPECT_LT(answer["plans"][0]["cost"], 12.0);
 }
 
 TEST(OpenGoals, RobotsThatStayGetDifferentPosesAtTheLeastSum) {
   const Json request = dock_request({2.5, 1.5, 3.5, 0.5, 4.5}, 5);
-  const Json answer = answer_of(request);
+  const Json answer = plan_of(request);
   EXPECT_EQ(answer["status"], "solved");
   EXPECT_EQ(answer["flowtime"], 40.0) << "each the one in front of it";
-  EXPECT_EQ(violations_of(request, answer), Json::array());
+  EXPECT_EQ(verdict_of(request, answer)["violations"], Json::array());
 }
 
 TEST(OpenGoals, PosesThatAreNearInStraightLinesMayBeFar) {
   Json request = dock_request({2.5}, 5);
   // A wall around the nearest dock, open on the far side only.
   request["map"]["rows"] = {"..........", ".......##.", ".......#..", ".......##.", ".........."};
-  EXPECT_NE(choice(answer_of(request), 0), 2);
+  EXPECT_NE(choice(plan_of(request), 0), 2);
 }
 
 TEST(OpenGoals, PosesThatDoNotFitAndThoseOfOthersAreLeftOut) {
@@ -103,7 +84,7 @@ TEST(OpenGoals, PosesThatDoNotFitAndThoseOfOthersAreLeftOut) {
   request["robots"][1]["goal"] = {{"x", 8.5}, {"y", 1.5}};
   request["robots"].push_back({{"id", "parked"}, {"start", pose(8.5, 4.5)}});
   request["robots"][0]["goal"]["any_of"].push_back(pose(8.5, 4.5));
-  EXPECT_EQ(choice(answer_of(request), 0), 0);
+  EXPECT_EQ(choice(plan_of(request), 0), 0);
 }
 
 TEST(OpenGoals, ARobotThatIsBlockedIsPlannedWithAnotherPose) {
@@ -112,10 +93,10 @@ TEST(OpenGoals, ARobotThatIsBlockedIsPlannedWithAnotherPose) {
   request["map"]["rows"] = {"..........", "......####", "..........", "......####", ".........."};
   request["robots"][0]["goal"]["any_of"] = {pose(8.5, 2.5), pose(8.5, 0.5)};
   request["robots"].push_back({{"id", "parked"}, {"start", pose(6.5, 2.5)}});
-  const Json answer = answer_of(request);
+  const Json answer = plan_of(request);
   EXPECT_EQ(answer["status"], "solved");
   EXPECT_EQ(choice(answer, 0), 1);
-  EXPECT_EQ(violations_of(request, answer), Json::array());
+  EXPECT_EQ(verdict_of(request, answer)["violations"], Json::array());
 }
 
 TEST(OpenGoals, AreGoalsOnTheWayToo) {
@@ -126,7 +107,7 @@ TEST(OpenGoals, AreGoalsOnTheWayToo) {
     robot["goals"] = {station, robot["start"]};
     robot.erase("goal");
   }
-  const Json answer = answer_of(request);
+  const Json answer = plan_of(request);
   ASSERT_EQ(answer["status"], "solved") << answer.dump();
   std::set<Json> chosen;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -134,7 +115,7 @@ TEST(OpenGoals, AreGoalsOnTheWayToo) {
     EXPECT_FALSE(answer["plans"][k]["visits"][1].contains("choice"));
   }
   EXPECT_EQ(chosen.size(), 2U) << "nobody waits where another one is free";
-  EXPECT_EQ(violations_of(request, answer), Json::array());
+  EXPECT_EQ(verdict_of(request, answer)["violations"], Json::array());
 }
 
 TEST(OpenGoals, MoreRobotsThanPosesMayYieldInTurn) {
@@ -148,60 +129,60 @@ TEST(OpenGoals, MoreRobotsThanPosesMayYieldInTurn) {
     robot["idle"] = "yield";
     robot["goal"]["service"] = 3.0;
   }
-  const Json answer = answer_of(request);
+  const Json answer = plan_of(request);
   EXPECT_EQ(answer["status"], "solved") << answer.dump();
-  EXPECT_EQ(violations_of(request, answer), Json::array());
+  EXPECT_EQ(verdict_of(request, answer)["violations"], Json::array());
 }
 
 TEST(OpenGoals, TheCheckLooksAtThePoseThatIsNamed) {
   const Json request = dock_request({2.5}, 5);
-  Json answer = answer_of(request);
+  Json answer = plan_of(request);
   answer["plans"][0]["visits"][0]["choice"] = 3;
-  EXPECT_FALSE(violations_of(request, answer).empty());
+  EXPECT_FALSE(verdict_of(request, answer)["violations"].empty());
   answer["plans"][0]["visits"][0].erase("choice");
-  EXPECT_EQ(violations_of(request, answer), Json::array()) << "the actions tell";
+  EXPECT_EQ(verdict_of(request, answer)["violations"], Json::array()) << "the actions tell";
   answer["plans"][0].erase("visits");
-  EXPECT_EQ(violations_of(request, answer), Json::array());
+  EXPECT_EQ(verdict_of(request, answer)["violations"], Json::array());
   answer["plans"][0]["actions"].back()["to"]["x"] = 8.0;
-  EXPECT_FALSE(violations_of(request, answer).empty());
+  EXPECT_FALSE(verdict_of(request, answer)["violations"].empty());
 }
 
 TEST(OpenGoals, StayOpenUntilTheServiceBegins) {
   Json request = dock_request({2.5}, 5);
   request["robots"][0]["goal"]["service"] = 4.0;
-  const Json answer = answer_of(request);
-  const Json on_the_way = later_request(request, answer, 3.0);
+  const Json answer = plan_of(request);
+  const Json on_the_way = advanced(request, answer, 3.0);
   EXPECT_EQ(on_the_way["robots"][0]["goal"], request["robots"][0]["goal"]);
-  const Json planned = answer_of(on_the_way);
+  const Json planned = plan_of(on_the_way);
   EXPECT_EQ(choice(planned, 0), 2);
   EXPECT_NEAR(planned["plans"][0]["cost"].get<double>(), 9.0, 1e-6);
-  const Json served = later_request(request, answer, 10.0);
+  const Json served = advanced(request, answer, 10.0);
   EXPECT_FALSE(served["robots"][0]["goal"].contains("any_of"));
   EXPECT_EQ(served["robots"][0]["goal"]["y"], 2.5);
   EXPECT_NEAR(served["robots"][0]["goal"]["service"].get<double>(), 2.0, 1e-6);
   Json returns = request;
   returns["robots"][0]["idle"] = "return";
-  const Json done = later_request(returns, answer, 12.0);
+  const Json done = advanced(returns, answer, 12.0);
   EXPECT_EQ(done["robots"][0]["goal"]["any_of"], docks(5)) << "it may come back to any of them";
-  EXPECT_EQ(answer_of(done)["plans"][0]["actions"], Json::array()) << "and does not move for nothing";
+  EXPECT_EQ(plan_of(done)["plans"][0]["actions"], Json::array()) << "and does not move for nothing";
 }
 
 TEST(OpenGoals, AreOpenAtTheHorizon) {
   Json request = dock_request({2.5, 1.5}, 5);
   request["options"]["horizon"] = 3.0;
-  const Json answer = answer_of(request);
+  const Json answer = plan_of(request);
   EXPECT_TRUE(choice(answer, 0).is_null()) << answer.dump();
   EXPECT_TRUE(answer["plans"][0]["visits"][0]["t_arrive"].is_null());
-  EXPECT_EQ(violations_of(request, answer), Json::array());
-  Json now = later_request(request, answer, 3.0);
+  EXPECT_EQ(verdict_of(request, answer)["violations"], Json::array());
+  Json now = advanced(request, answer, 3.0);
   EXPECT_TRUE(now["robots"][0]["goal"].contains("any_of"));
-  for (int round = 0; round < 4; ++round) now = later_request(now, answer_of(now), 3.0);
+  for (int round = 0; round < 4; ++round) now = advanced(now, plan_of(now), 3.0);
   EXPECT_EQ(now["robots"][0]["goal"]["x"], 8.5) << "it has arrived";
 }
 
 TEST(OpenGoals, NewGoalsMayBeOpen) {
   const Json request = dock_request({2.5}, 5);
-  const Json answer = answer_of(request);
+  const Json answer = plan_of(request);
   Json body{{"request", request}, {"plans", answer["plans"]}, {"at", 2.0}};
   const Json goal{{"any_of", docks(2)}, {"service", 1.0}};
   body["goals"].push_back({{"robot", "r0"}, {"goals", Json::array({goal})}});
@@ -209,14 +190,14 @@ TEST(OpenGoals, NewGoalsMayBeOpen) {
   ASSERT_EQ(reply.status, 200) << reply.body;
   const Json later = json_of(reply);
   EXPECT_EQ(later["robots"][0]["goal"]["any_of"], docks(2));
-  EXPECT_EQ(choice(answer_of(later), 0), 1);
+  EXPECT_EQ(choice(plan_of(later), 0), 1);
 }
 
 TEST(OpenGoals, APlanThatHoldsIsKept) {
   const Json request = dock_request({2.5, 1.5, 3.5, 0.5, 4.5}, 5);
-  const Json answer = answer_of(request);
-  const Json later = later_request(request, answer, 3.0);
-  const Json planned = answer_of(later);
+  const Json answer = plan_of(request);
+  const Json later = advanced(request, answer, 3.0);
+  const Json planned = plan_of(later);
   for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(choice(planned, k), choice(answer, k));
 }
 
@@ -254,7 +235,7 @@ TEST(OpenGoals, AllInWallsMakeARobotInvalid) {
   for (Json& row : request["map"]["rows"]) row = ".......###";
   request["robots"][1]["goal"] = pose(4.5, 0.5);
   request["options"]["invalid_robots"] = "report";
-  const Json answer = answer_of(request);
+  const Json answer = plan_of(request);
   ASSERT_EQ(answer["unplanned"].size(), 1U) << answer.dump();
   EXPECT_EQ(answer["unplanned"][0]["reason"], "invalid");
   EXPECT_EQ(answer["unplanned"][0]["errors"][0]["pointer"], "/robots/0/goal/any_of");

@@ -7,18 +7,13 @@
 #include <string>
 
 #include "api/endpoints/endpoints.h"
+#include "tests/api/support/answers.h"
 #include "tests/api/support/requests.h"
 
 namespace fleetplan::api {
 namespace TEST_FILE {
 
 using testing::HasSubstr;
-
-Json answer_of(Reply (*endpoint)(std::string_view, const RequestContext&), const Json& body) {
-  const Reply reply = endpoint(body.dump(), {});
-  EXPECT_EQ(reply.status, 200) << reply.body << "\n" << body;
-  return json_of(reply);
-}
 
 Faults faults_of_import(const Json& body) {
   const Reply reply = import_vda5050_endpoint(body.dump(), {});

@@ -159,15 +159,31 @@ Ramps random_ramps(support::Dice& dice) {
   return made;
 }
 
+/// Two disks, and the times between which both move, if begin <= end.
+struct Meeting {
+  MovingDisk mine;
+  MovingDisk other;
+  double reach = 0.0;
+  double begin = std::max(mine.t_start, other.t_start);
+  double end = std::min(mine.t_end, other.t_end);
+
+  double distance(double t) const { return (mine.at(t) - other.at(t)).norm(); }
+};
+
+Meeting random_meeting(support::Dice& dice) {
+  const Ramps ramps = random_ramps(dice);
+  const MovingDisk& other = ramps.encounter.other;
+  return {ramps.departing(other.t_start + dice.between(-6, 6)), other, ramps.encounter.reach};
+}
+
 /// The least distance of the centres at many times.
-double sampled(const MovingDisk& a, const MovingDisk& b) {
-  const double begin = std::max(a.t_start, b.t_start);
-  const double end = std::min(a.t_end, b.t_end);
+double sampled(const Meeting& meeting) {
+  const auto [begin, end] = std::pair(meeting.begin, meeting.end);
   if (begin > end) return kForever;
   double least = kForever;
   double at = begin;
   const auto look = [&](double t) {
-    const double distance = (a.at(t) - b.at(t)).norm();
+    const double distance = meeting.distance(t);
     if (distance < least) at = t;
     least = std::min(least, distance);
   };
@@ -185,20 +201,20 @@ TEST(Acceleration, CollidesWhereSamplesAreNear) {
   int collisions = 0;
   for (int k = 0; k < kCases; ++k) {
     SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", case " << k);
-    const Ramps e = random_ramps(dice);
-    const MovingDisk mine = e.departing(e.encounter.other.t_start + dice.between(-6, 6));
-    const double distance = sampled(mine, e.encounter.other);
-    const double exact = least_distance(mine, e.encounter.other);
+    const Meeting meeting = random_meeting(dice);
+    const auto& [mine, other, reach, begin, end] = meeting;
+    const double distance = sampled(meeting);
+    const double exact = least_distance(mine, other);
     if (distance == kForever) {
       ASSERT_EQ(exact, kForever);
       continue;
     }
     ASSERT_LE(exact, distance + 1e-12);
     ASSERT_GE(exact, distance - kSampling);
-    if (std::abs(exact - e.encounter.reach) < 1e-8) continue;
-    ASSERT_EQ(collide(mine, e.encounter.other, e.encounter.reach), exact < e.encounter.reach);
-    ASSERT_EQ(collide(e.encounter.other, mine, e.encounter.reach), exact < e.encounter.reach);
-    if (exact < e.encounter.reach) ++collisions;
+    if (std::abs(exact - reach) < 1e-8) continue;
+    ASSERT_EQ(collide(mine, other, reach), exact < reach);
+    ASSERT_EQ(collide(other, mine, reach), exact < reach);
+    if (exact < reach) ++collisions;
   }
   EXPECT_GT(collisions, kCases / 40);
 }
@@ -239,20 +255,16 @@ TEST(Acceleration, OverlapIsFromTheFirstToTheLastTimeWithinReach) {
   int overlaps = 0;
   for (int k = 0; k < kCases; ++k) {
     SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", case " << k);
-    const Ramps e = random_ramps(dice);
-    const MovingDisk& other = e.encounter.other;
-    const MovingDisk mine = e.departing(other.t_start + dice.between(-6, 6));
-    const double begin = std::max(mine.t_start, other.t_start);
-    const double end = std::min(mine.t_end, other.t_end);
-    const auto found = overlap(mine, other, e.encounter.reach);
-    const auto distance = [&](double t) { return (mine.at(t) - other.at(t)).norm(); };
+    const Meeting meeting = random_meeting(dice);
+    const auto& [mine, other, reach, begin, end] = meeting;
+    const auto found = overlap(mine, other, reach);
     if (begin > end) {
       ASSERT_FALSE(found);
       continue;
     }
     for (int i = 0; i <= 200; ++i) {
       const double t = begin + (end - begin) * i / 200;
-      if (distance(t) < e.encounter.reach - 1e-12) {
+      if (meeting.distance(t) < reach - 1e-12) {
         ASSERT_TRUE(found) << "t = " << t;
         ASSERT_GE(t, found->begin - 1e-12);
         ASSERT_LE(t, found->end + 1e-12);
@@ -262,8 +274,8 @@ TEST(Acceleration, OverlapIsFromTheFirstToTheLastTimeWithinReach) {
     ++overlaps;
     for (const double t : {found->begin, found->end}) {
       ASSERT_TRUE(begin <= t && t <= end);
-      ASSERT_LT(distance(t), e.encounter.reach + 1e-9);
-      ASSERT_TRUE(t == begin || t == end || distance(t) > e.encounter.reach - 1e-9) << "t = " << t;
+      ASSERT_LT(meeting.distance(t), reach + 1e-9);
+      ASSERT_TRUE(t == begin || t == end || meeting.distance(t) > reach - 1e-9) << "t = " << t;
     }
   }
   EXPECT_GT(overlaps, kCases / 40);
@@ -273,16 +285,13 @@ TEST(Acceleration, ANearestApproachIsAtItsTime) {
   support::Dice dice(kSeed);
   for (int k = 0; k < kCases; ++k) {
     SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", case " << k);
-    const Ramps e = random_ramps(dice);
-    const MovingDisk& other = e.encounter.other;
-    const MovingDisk mine = e.departing(other.t_start + dice.between(-6, 6));
-    const double begin = std::max(mine.t_start, other.t_start);
-    const double end = std::min(mine.t_end, other.t_end);
+    const Meeting meeting = random_meeting(dice);
+    const auto& [mine, other, reach, begin, end] = meeting;
     if (begin > end || (mine.ramp == 0.0 && other.ramp == 0.0)) continue;
     const Approach nearest = nearest_approach(mine, other);
     ASSERT_GE(nearest.t, begin);
     ASSERT_LE(nearest.t, end + 1e-12);
-    ASSERT_NEAR((mine.at(nearest.t) - other.at(nearest.t)).norm(), nearest.distance, 1e-11);
+    ASSERT_NEAR(meeting.distance(nearest.t), nearest.distance, 1e-11);
   }
 }
 
