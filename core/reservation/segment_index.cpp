@@ -8,8 +8,9 @@ namespace {
 
 /// More classes cost memory and time to reserve, fewer cost longer bucket lists.
 constexpr std::size_t kMaxLayers = 6;
-/// Buckets of all layers together, to bound memory on huge maps.
+/// Buckets of all layers together, and of them for each robot, to bound memory and time on huge maps.
 constexpr double kMaxBuckets = 2.5e5;
+constexpr double kMaxBucketsPerRobot = 4096.0;
 
 std::vector<double> pair_radii(const std::vector<LargestDisk>& disks) {
   std::vector<double> radii;
@@ -33,7 +34,9 @@ double bucket_size(double width, double height, double cell_size, const std::vec
   std::sort(sorted.begin(), sorted.end());
   const double typical = sorted.empty() ? cell_size : sorted[sorted.size() / 2];
   const auto layers = static_cast<double>(class_radii(radii).size());
-  return std::max({cell_size, typical, std::sqrt(width * height * layers / kMaxBuckets)});
+  const auto robots = static_cast<double>(std::max<std::size_t>(radii.size(), 1));
+  const double most = std::min(kMaxBuckets, kMaxBucketsPerRobot * robots);
+  return std::max({cell_size, typical, std::sqrt(width * height * layers / most)});
 }
 
 }  // namespace

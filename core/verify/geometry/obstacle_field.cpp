@@ -7,9 +7,18 @@
 #include <utility>
 
 namespace fleetplan::core {
+namespace {
 
-/// Branch and bound for the blocked cell nearest to a segment: blocks of cells are halved until they are all
-/// free or all blocked, and dropped when they are too far away.
+/// The cells of a map are counted in square tiles with sides of so many. Smaller ones cost memory and time
+/// for maps, larger ones time for segments.
+constexpr int kTile = 8;
+
+int tiles_for(int cells) { return (cells + kTile - 1) / kTile; }
+
+}  // namespace
+
+/// Branch and bound for the blocked cell nearest to a segment: blocks of tiles are halved until they are all
+/// free, all blocked, or one tile, and dropped when they are too far away.
 class ObstacleField::NearestCellSearch {
  public:
   /// Finds only cells that are nearer than `limit`, or as near and earlier on the segment.
@@ -25,25 +34,32 @@ class ObstacleField::NearestCellSearch {
     if (length > 0.0) normal_ = Position(from.y() - to.y(), to.x() - from.x()) / length;
   }
 
-  void visit(const Block& block) {
-    const std::int64_t blocked = field_.blocked_in(block);
+  void visit(const Block& tiles) {
+    const std::int64_t blocked = field_.blocked_in(tiles);
     if (blocked == 0) return;
-    const Rectangle rectangle = field_.rectangle(block);
+    const Block cells = field_.cells_of(tiles);
+    const Rectangle rectangle = field_.rectangle(cells);
     if (distance_bound(rectangle) > nearest_.distance) return;
-    if (blocked == block.cells()) {
+    if (blocked == cells.area()) {
       consider(nearest_to_rectangle(from_, to_, rectangle));
       return;
     }
-    Block one = block;
-    Block other = block;
-    if (block.last_column - block.first_column >= block.last_row - block.first_row) {
-      one.last_column = other.first_column = std::midpoint(block.first_column, block.last_column);
+    if (tiles.area() == 1) {
+      visit_cells(cells);
+      return;
+    }
+    Block one = tiles;
+    Block other = tiles;
+    if (tiles.last_column - tiles.first_column >= tiles.last_row - tiles.first_row) {
+      one.last_column = other.first_column = std::midpoint(tiles.first_column, tiles.last_column);
     } else {
-      one.last_row = other.first_row = std::midpoint(block.first_row, block.last_row);
+      one.last_row = other.first_row = std::midpoint(tiles.first_row, tiles.last_row);
     }
     // The nearer half comes first, as its result may exclude the other one.
-    if (distance_bound(field_.rectangle(other)) < distance_bound(field_.rectangle(one)))
+    if (distance_bound(field_.rectangle(field_.cells_of(other))) <
+        distance_bound(field_.rectangle(field_.cells_of(one)))) {
       std::swap(one, other);
+    }
     visit(one);
     visit(other);
   }
@@ -53,6 +69,21 @@ class ObstacleField::NearestCellSearch {
   }
 
  private:
+  /// Looks at the blocked cells one by one: those beside each other in a row as one rectangle.
+  void visit_cells(const Block& cells) {
+    // Bounded: the cells of a tile.
+    for (int row = cells.first_row; row < cells.last_row; ++row) {
+      const auto all = field_.grid_.row(row);
+      for (int column = cells.first_column; column < cells.last_column; ++column) {
+        if (all[static_cast<std::size_t>(column)] == 0) continue;
+        const int first = column;
+        while (column < cells.last_column && all[static_cast<std::size_t>(column)] != 0) ++column;
+        const Rectangle run = field_.rectangle({first, column, row, row + 1});
+        if (distance_bound(run) <= nearest_.distance) consider(nearest_to_rectangle(from_, to_, run));
+      }
+    }
+  }
+
   /// Returns a lower bound, up to rounding, of the distance between rectangle and segment: the distance to
   /// the segment's bounding box, or to its line.
   double distance_bound(const Rectangle& rectangle) const {
@@ -83,21 +114,25 @@ class ObstacleField::NearestCellSearch {
 };
 
 ObstacleField::ObstacleField(const OccupancyGrid& grid)
-    : columns_(grid.columns()),
-      rows_(grid.rows()),
-      resolution_(grid.resolution()),
-      width_(grid.width()),
-      height_(grid.height()),
-      blocked_below_left_(std::make_unique_for_overwrite<std::uint32_t[]>(corner(0, rows_ + 1))) {
-  std::fill_n(blocked_below_left_.get(), columns_ + 1, 0);
-  // Bounded: each cell once; 0.1 s for the largest map, most of it for the memory's pages.
-  for (int row = 0; row < rows_; ++row) {
+    : grid_(grid),
+      tile_columns_(tiles_for(grid.columns())),
+      tile_rows_(tiles_for(grid.rows())),
+      blocked_below_left_(corner(0, tile_rows_ + 1), 0) {
+  // Bounded: each cell once; some milliseconds for the largest map.
+  for (int row = 0; row < grid.rows(); ++row) {
+    const auto cells = grid.row(row);
+    for (int tile = 0; tile < tile_columns_; ++tile) {
+      const std::size_t first = static_cast<std::size_t>(tile) * kTile;
+      const auto in_tile = cells.subspan(first, std::min<std::size_t>(kTile, cells.size() - first));
+      blocked_below_left_[corner(tile + 1, row / kTile + 1)] +=
+          std::accumulate(in_tile.begin(), in_tile.end(), std::uint32_t{0});
+    }
+  }
+  for (int row = 1; row <= tile_rows_; ++row) {
     std::uint32_t in_row = 0;
-    blocked_below_left_[corner(0, row + 1)] = 0;
-    for (int column = 0; column < columns_; ++column) {
-      in_row += grid.blocked({column, row}) ? 1 : 0;
-      blocked_below_left_[corner(column + 1, row + 1)] =
-          blocked_below_left_[corner(column + 1, row)] + in_row;
+    for (int column = 1; column <= tile_columns_; ++column) {
+      in_row += blocked_below_left_[corner(column, row)];
+      blocked_below_left_[corner(column, row)] = blocked_below_left_[corner(column, row - 1)] + in_row;
     }
   }
 }
@@ -109,11 +144,12 @@ std::optional<NearestObstacle> ObstacleField::nearest(const Position& from, cons
   if (edge.distance < reach) nearest = NearestObstacle{edge, true};
 
   // Beyond the edge of the map the distance is 0; what remains is the part inside.
-  const Stretch inside = stretch_inside(from, to, {Position(0.0, 0.0), Position(width_, height_)});
+  const Stretch inside =
+      stretch_inside(from, to, {Position(0.0, 0.0), Position(grid_.width(), grid_.height())});
   if (inside.empty() || reach <= 0.0) return nearest;
   const Position enters = inside.first > 0.0 ? Position(from + inside.first * (to - from)) : from;
   const Position leaves = inside.last < 1.0 ? Position(from + inside.last * (to - from)) : to;
-  const Block around = block_around(enters, leaves, reach);
+  const Block around = tiles_around(enters, leaves, reach);
   if (blocked_in(around) == 0) return nearest;
   // A cell must be nearer than the edge, or as near at an earlier point of the part inside.
   NearestPoint limit{reach, 0.0};
@@ -128,8 +164,8 @@ std::optional<NearestObstacle> ObstacleField::nearest(const Position& from, cons
 }
 
 NearestPoint ObstacleField::nearest_edge(const Position& from, const Position& to) const {
-  const std::array<double, 4> starts{from.x(), width_ - from.x(), from.y(), height_ - from.y()};
-  const std::array<double, 4> ends{to.x(), width_ - to.x(), to.y(), height_ - to.y()};
+  const std::array<double, 4> starts{from.x(), grid_.width() - from.x(), from.y(), grid_.height() - from.y()};
+  const std::array<double, 4> ends{to.x(), grid_.width() - to.x(), to.y(), grid_.height() - to.y()};
   const double start = *std::min_element(starts.begin(), starts.end());
   const double end = *std::min_element(ends.begin(), ends.end());
   if (start <= 0.0) return {0.0, 0.0};
@@ -141,31 +177,38 @@ NearestPoint ObstacleField::nearest_edge(const Position& from, const Position& t
   return {0.0, crossing};
 }
 
-std::int64_t ObstacleField::blocked_in(const Block& block) const {
-  return static_cast<std::int64_t>(blocked_below_left_[corner(block.last_column, block.last_row)]) -
-         blocked_below_left_[corner(block.first_column, block.last_row)] -
-         blocked_below_left_[corner(block.last_column, block.first_row)] +
-         blocked_below_left_[corner(block.first_column, block.first_row)];
+std::int64_t ObstacleField::blocked_in(const Block& tiles) const {
+  return static_cast<std::int64_t>(blocked_below_left_[corner(tiles.last_column, tiles.last_row)]) -
+         blocked_below_left_[corner(tiles.first_column, tiles.last_row)] -
+         blocked_below_left_[corner(tiles.last_column, tiles.first_row)] +
+         blocked_below_left_[corner(tiles.first_column, tiles.first_row)];
 }
 
-Rectangle ObstacleField::rectangle(const Block& block) const {
-  return {Position(block.first_column * resolution_, block.first_row * resolution_),
-          Position(block.last_column * resolution_, block.last_row * resolution_)};
+ObstacleField::Block ObstacleField::cells_of(const Block& tiles) const {
+  return {tiles.first_column * kTile, std::min(tiles.last_column * kTile, grid_.columns()),
+          tiles.first_row * kTile, std::min(tiles.last_row * kTile, grid_.rows())};
 }
 
-ObstacleField::Block ObstacleField::block_around(const Position& from, const Position& to,
+Rectangle ObstacleField::rectangle(const Block& cells) const {
+  const double size = grid_.resolution();
+  return {Position(cells.first_column * size, cells.first_row * size),
+          Position(cells.last_column * size, cells.last_row * size)};
+}
+
+ObstacleField::Block ObstacleField::tiles_around(const Position& from, const Position& to,
                                                  double reach) const {
-  const auto clamped = [this](double coordinate, int last) {
-    return static_cast<int>(std::clamp(std::floor(coordinate / resolution_), 0.0, static_cast<double>(last)));
+  const double size = kTile * grid_.resolution();
+  const auto clamped = [size](double coordinate, int last) {
+    return static_cast<int>(std::clamp(std::floor(coordinate / size), 0.0, static_cast<double>(last)));
   };
   const Position low = from.cwiseMin(to).array() - reach;
   const Position high = from.cwiseMax(to).array() + reach;
-  return {clamped(low.x(), columns_ - 1), clamped(high.x(), columns_ - 1) + 1, clamped(low.y(), rows_ - 1),
-          clamped(high.y(), rows_ - 1) + 1};
+  return {clamped(low.x(), tile_columns_ - 1), clamped(high.x(), tile_columns_ - 1) + 1,
+          clamped(low.y(), tile_rows_ - 1), clamped(high.y(), tile_rows_ - 1) + 1};
 }
 
 std::size_t ObstacleField::corner(int column, int row) const {
-  return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_ + 1) +
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(tile_columns_ + 1) +
          static_cast<std::size_t>(column);
 }
 

@@ -35,7 +35,7 @@ double plain_distance(const OccupancyGrid& grid, const Position& point) {
 }
 
 OccupancyGrid random_grid(std::mt19937& random, double density) {
-  std::uniform_int_distribution<int> size(1, 25);
+  std::uniform_int_distribution<int> size(1, 33);
   OccupancyGrid grid(size(random), size(random), std::uniform_real_distribution<double>(0.05, 2.0)(random));
   for (int row = 0; row < grid.rows(); ++row) {
     for (int column = 0; column < grid.columns(); ++column) {
@@ -46,7 +46,8 @@ OccupancyGrid random_grid(std::mt19937& random, double density) {
 }
 
 TEST(ObstacleField, ConsistsOfTheEdgeOnAFreeMap) {
-  const ObstacleField field(ascii_map({"....", "....", "...."}));
+  const OccupancyGrid grid = ascii_map({"....", "....", "...."});
+  const ObstacleField field(grid);
   const auto nearest = field.nearest(Position(1, 1.5), Position(3.25, 1.5), kNoLimit);
   ASSERT_TRUE(nearest.has_value());
   EXPECT_TRUE(nearest->is_edge);
@@ -56,17 +57,19 @@ TEST(ObstacleField, ConsistsOfTheEdgeOnAFreeMap) {
 }
 
 TEST(ObstacleField, FindsNothingWithoutReach) {
-  const ObstacleField field(ascii_map({"#"}));
+  const OccupancyGrid grid = ascii_map({"#"});
+  const ObstacleField field(grid);
   EXPECT_FALSE(field.nearest(Position(0.5, 0.5), Position(0.5, 0.5), 0.0).has_value());
   EXPECT_FALSE(field.nearest(Position(0.5, 0.5), Position(7, 7), -1.0).has_value());
 }
 
 TEST(ObstacleField, FindsTheFirstOfSeveralObstaclesEntered) {
-  const ObstacleField field(ascii_map({
+  const OccupancyGrid grid = ascii_map({
       ".........",
       "..#..##..",
       ".........",
-  }));
+  });
+  const ObstacleField field(grid);
   const auto forth = field.nearest(Position(0.5, 1.5), Position(8.5, 1.5), kNoLimit);
   EXPECT_EQ(forth->point.distance, 0.0);
   EXPECT_DOUBLE_EQ(forth->point.fraction, 1.5 / 8.0);
@@ -75,7 +78,8 @@ TEST(ObstacleField, FindsTheFirstOfSeveralObstaclesEntered) {
 }
 
 TEST(ObstacleField, FindsTheEdgeWhereTheFirstSideIsCrossed) {
-  const ObstacleField field(ascii_map({"....", "...."}));
+  const OccupancyGrid grid = ascii_map({"....", "...."});
+  const ObstacleField field(grid);
   const Position from(1, 1);
   for (const Position& to : {Position(9, 5), Position(9, -3), Position(-3, 9), Position(-3, 1.5)}) {
     const auto nearest = field.nearest(from, to, kNoLimit);
@@ -88,7 +92,8 @@ TEST(ObstacleField, FindsTheEdgeWhereTheFirstSideIsCrossed) {
 }
 
 TEST(ObstacleField, PrefersACellBeforeTheEdge) {
-  const ObstacleField field(ascii_map({"....", "..#.", "...."}));
+  const OccupancyGrid grid = ascii_map({"....", "..#.", "...."});
+  const ObstacleField field(grid);
   const auto leaving = field.nearest(Position(1, 1.5), Position(9, 1.5), kNoLimit);
   EXPECT_FALSE(leaving->is_edge);
   EXPECT_EQ(leaving->point.distance, 0.0);
