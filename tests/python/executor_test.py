@@ -376,6 +376,8 @@ class Courses(unittest.TestCase):
             self.assertAlmostEqual(moves.place_at(t), place)
             if 1.0 < place < 2.0:
                 self.assertAlmostEqual(moves.time_at(place), t)
+        for place in (1.0, 1.0 - 2e-10):  # at rest before the translation, but for rounding
+            self.assertEqual(moves.time_at(place), 2.0)
         self.assertEqual(moves.planned_speed(1), 2.0)
 
     def test_moves_end_where_the_other_course_leads_elsewhere(self):

@@ -265,6 +265,8 @@ class Course:
         """The inverse: after how many seconds so much of an action is done, as planned."""
         action = self.actions[index]
         duration = action["t_end"] - action["t_start"]
+        if share <= 0.0:  # at rest, or before it by rounding
+            return 0.0
         if "profile" not in action:
             return share * duration
         profile, covered = action["profile"], share * self._amounts[index]
