@@ -7,9 +7,10 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <regex>
+#include <optional>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tests/architecture/source_rules.h"
@@ -56,16 +57,27 @@ TEST(Folders, DoNotIncludeEachOther) {
   EXPECT_THAT(mutual_includes(sources), IsEmpty()) << "move the header that causes it";
 }
 
+/// The `Name` of a line `struct Name ... {` or `class Name ... {`.
+std::optional<std::string> defined_type(std::string_view line) {
+  if (!line.starts_with("struct ") && !line.starts_with("class ")) return std::nullopt;
+  line.remove_prefix(line.find(' ') + 1);
+  const std::string_view name = line.substr(0, line.find(' '));
+  const bool is_definition = line.find('{') < line.find(';') && name.size() < line.find('{');
+  return is_definition ? std::optional<std::string>(name) : std::nullopt;
+}
+
 /// Two types of one name in one namespace are undefined behaviour, which no compiler reports.
 TEST(Headers, DefineTypesOfDifferentNames) {
   for (const std::string folder : {"core", "api"}) {
     std::map<std::string, std::string> defined_in;
     for (const auto& [path, text] : sources_in(folder)) {
       if (!path.ends_with(".h")) continue;
-      const std::regex definition("(?:^|\\n)(?:struct|class) (\\w+) [^;\\n]*\\{");
-      for (std::sregex_iterator match(text.begin(), text.end(), definition), end; match != end; ++match) {
-        const auto [first, is_new] = defined_in.emplace((*match)[1], path);
-        EXPECT_TRUE(is_new) << (*match)[1] << " is defined in " << first->second << " and in " << path;
+      std::istringstream lines(text);
+      for (std::string line; std::getline(lines, line);) {
+        const auto name = defined_type(line);
+        if (!name) continue;
+        const auto [first, is_new] = defined_in.emplace(*name, path);
+        EXPECT_TRUE(is_new) << *name << " is defined in " << first->second << " and in " << path;
       }
     }
     EXPECT_GT(defined_in.size(), 50U) << "nothing was checked in " << folder;

@@ -4,7 +4,6 @@
 #include <array>
 #include <cctype>
 #include <optional>
-#include <regex>
 #include <set>
 #include <span>
 #include <utility>
@@ -191,16 +190,34 @@ bool uses(string_view code, string_view identifier) {
   return false;
 }
 
+/// Whether the code has `Type(`, `Type{`, `Type name(` or `Type name{`, and not the parameter of a copy or of
+/// a function there, which begins with `const `.
+bool constructs(string_view code, string_view type) {
+  constexpr string_view kBlanks = " \t\r\n";
+  const auto skip = [](string_view text, std::size_t to) { return text.substr(std::min(to, text.size())); };
+  for (std::size_t at = code.find(type); at != string_view::npos; at = code.find(type, at + 1)) {
+    if (at > 0 && identifier_character(code[at - 1])) continue;
+    string_view rest = code.substr(at + type.size());
+    const string_view name = skip(rest, rest.find_first_not_of(kBlanks));
+    if (name.size() < rest.size()) {
+      const auto end = std::find_if_not(name.begin(), name.end(), identifier_character);
+      rest = skip(name, static_cast<std::size_t>(end - name.begin()));
+      rest = skip(rest, rest.find_first_not_of(kBlanks));
+    }
+    const bool opens = rest.starts_with('(') || rest.starts_with('{');
+    if (opens && !rest.substr(1).starts_with("const ")) return true;
+  }
+  return false;
+}
+
 /// Whether a source of core or api makes a stop condition of its own, which knows nothing of the request's
 /// bounds, instead of deriving it from its Work or from another stop condition.
 bool makes_a_stop_condition(string_view path, const std::string& code) {
   if (!path.starts_with("core/") && !path.starts_with("api/")) return false;
   // The examples are part of the program.
   if (path.starts_with("core/runtime/") || path == "api/endpoints/examples.cpp") return false;
-  static const std::regex made(
-      "StopCondition::never|Work::unbounded|\\bStopCondition(\\s+\\w+)?\\s*[({](?!const )");
-  static const std::regex function("\\bStopCondition\\s+\\w+\\(const ");
-  return std::regex_search(std::regex_replace(code, function, ""), made);
+  return code.find("StopCondition::never") != std::string::npos ||
+         code.find("Work::unbounded") != std::string::npos || constructs(code, "StopCondition");
 }
 
 /// The folder below a layer that a file is in, such as "core/map"; the layer, if the file lies loose.
