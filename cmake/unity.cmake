@@ -1,8 +1,10 @@
 # With CMAKE_UNITY_BUILD, the sources of a folder of these targets are compiled as one, which saves CPU time of a full
 # build. Two sources of a folder then share their unnamed namespace. The one that uses names for other things than its
-# folder is compiled on its own.
+# folder is compiled on its own. Some folders are compiled with the folders in them, whose names differ.
 
 set(alone server/.*/socket.cpp)
+set(whole core/execution core/verify server/http server/ops)
+list(JOIN whole "|" whole)
 
 foreach(target fleetplan_core fleetplan_api fleetplan_server)
   get_target_property(folder ${target} SOURCE_DIR)
@@ -13,7 +15,11 @@ foreach(target fleetplan_core fleetplan_api fleetplan_server)
     if(name MATCHES "^(${alone})$")
       continue()  # a source without a group is compiled on its own
     endif()
-    cmake_path(GET name PARENT_PATH group)
+    if(name MATCHES "^(${whole})/")
+      set(group ${CMAKE_MATCH_1})
+    else()
+      cmake_path(GET name PARENT_PATH group)
+    endif()
     string(MAKE_C_IDENTIFIER "${group}" group)
     set_property(SOURCE ${path} TARGET_DIRECTORY ${target} PROPERTY UNITY_GROUP ${group})
   endforeach()

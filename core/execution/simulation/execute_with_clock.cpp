@@ -12,7 +12,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// The difference, in seconds and as a share of the latest planned time, below which moments are the same: a
 /// robot that is late by all but this is as late as is allowed, and planned times that differ by less are
 /// equal. It is far above the rounding of sums of durations, and far below what a robot could notice.
-constexpr double kSameMoment = 1e-9;
+constexpr double kLeastSameMoment = 1e-9;
 constexpr double kSameShare = 1e-14;
 constexpr std::size_t kActionsBetweenPolls = 256;
 constexpr std::size_t kClockStepsBetweenPolls = 1024;
@@ -122,7 +122,7 @@ class ClockedExecution {
       if (!phases) return false;
       robots_[k].phases = std::move(*phases);
       if (!actions.empty()) {
-        same_moment_ = std::max(same_moment_, kSameMoment + kSameShare * actions.back().t_end);
+        same_moment_ = std::max(same_moment_, kLeastSameMoment + kSameShare * actions.back().t_end);
       }
     }
     return true;
@@ -243,7 +243,7 @@ class ClockedExecution {
   const StopCondition& stop_;
   std::size_t steps_ = 0;
   bool stopped_ = false;
-  double same_moment_ = kSameMoment;
+  double same_moment_ = kLeastSameMoment;
   double now_ = 0.0;    // seconds
   double clock_ = 0.0;  // planned time
   std::vector<Robot> robots_;

@@ -60,7 +60,7 @@ std::vector<Violation> check_endpoints(const Robot& robot, const RobotPlan& plan
 namespace {
 
 constexpr std::size_t kRestsBetweenPolls = 64;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kForever = std::numeric_limits<double>::infinity();
 
 /// An interval, from t_begin to t_end (infinity: the end of its plan), in which the robot neither moves nor
 /// turns.
@@ -162,7 +162,7 @@ class VisitCheck {
     double now = rest.t_begin;
     if (!served_.empty()) now = std::max(now, served_.back().ends);
     const double end = std::max(now, goal.not_before) + goal.service;
-    served_.push_back({now, kInfinity});
+    served_.push_back({now, kForever});
     if (end <= rest.t_end + tolerance_.seconds) return;
     report(rest.t_end, rest.t_end, end,
            "the plan ends at t = " + seconds(rest.t_end) + ", but " + goal_name(last_goal()) +
