@@ -57,6 +57,9 @@ export const it: I${kind} = ${JSON.stringify(resource)};
 `;
 }
 
+/** What TypeScript has read of the types, by path: reading takes most of the time of a check. */
+const declarations = new Map();
+
 /** The errors that TypeScript reports for sources in memory: a Map of {name, text} by path. */
 function typeFaults(sources) {
   const options = { strict: true, noEmit: true, skipLibCheck: true, types: [] };
@@ -64,10 +67,11 @@ function typeFaults(sources) {
   const host = ts.createCompilerHost(options);
   const { getSourceFile, fileExists } = host;
   host.fileExists = (path) => sources.has(path) || fileExists.call(host, path);
-  host.getSourceFile = (path, version) =>
-    sources.has(path)
-      ? ts.createSourceFile(path, sources.get(path).text, version)
-      : getSourceFile.call(host, path, version);
+  host.getSourceFile = (path, version) => {
+    if (sources.has(path)) return ts.createSourceFile(path, sources.get(path).text, version);
+    if (!declarations.has(path)) declarations.set(path, getSourceFile.call(host, path, version));
+    return declarations.get(path);
+  };
   const program = ts.createProgram([...sources.keys()], options, host);
   return ts.getPreEmitDiagnostics(program).map((diagnostic) => {
     const { name } = sources.get(diagnostic.file?.fileName) ?? { name: "all" };
