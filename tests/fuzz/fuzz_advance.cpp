@@ -15,7 +15,7 @@
 
 namespace fleetplan::fuzz {
 
-namespace {
+namespace TEST_FILE {
 
 using Json = nlohmann::json;
 
@@ -39,11 +39,10 @@ void try_advance(std::string_view body) {
   require_readable(reply.body, context.limits);
 }
 
-}  // namespace
+void run(Input input) { try_advance(text_of(input)); }
+
+const Target target("advance", run);
+
+}  // namespace TEST_FILE
 
 }  // namespace fleetplan::fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  fleetplan::fuzz::try_advance({reinterpret_cast<const char*>(data), size});
-  return 0;
-}

@@ -22,8 +22,6 @@ namespace fleetplan::fuzz {
 
 namespace {
 
-using Json = nlohmann::json;
-
 /// The basic blocks since the last question. All requests of this target run in one thread.
 struct Blocks {
   std::int64_t steps = 0;  // questions so far
@@ -32,6 +30,12 @@ struct Blocks {
 };
 
 Blocks blocks;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables): for the callback below
+
+}  // namespace
+
+namespace TEST_FILE {
+
+using Json = nlohmann::json;
 
 /// Steps after the last one of the time: each robot may be asked about a few times, and each loop ends.
 std::int64_t allowed_lateness(std::size_t robots) { return 500 + 16 * static_cast<std::int64_t>(robots); }
@@ -70,7 +74,14 @@ void check(const Effort& effort) {
   require(Json::accept(reply.body), "an answer is not JSON", reply.body);
 }
 
-}  // namespace
+void run(Input input) {
+  Choices choices(input);
+  check(choices.yes() ? execution_effort(choices) : planning_effort(choices));
+}
+
+const Target target("effort", run);
+
+}  // namespace TEST_FILE
 
 }  // namespace fleetplan::fuzz
 
@@ -90,10 +101,3 @@ extern "C" __attribute__((no_sanitize_coverage)) void __sanitizer_cov_trace_pc()
   std::abort();  // here, so that a debugger shows the loop
 }
 #endif
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace fleetplan::fuzz;
-  Choices choices({data, size});
-  check(choices.yes() ? execution_effort(choices) : planning_effort(choices));
-  return 0;
-}

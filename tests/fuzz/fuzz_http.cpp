@@ -19,7 +19,7 @@
 
 namespace fleetplan::fuzz {
 
-namespace {
+namespace TEST_FILE {
 
 /// The requests that reached the service, in order.
 using Requests = std::vector<std::string>;
@@ -130,15 +130,10 @@ std::string statuses(std::string_view answers) {
   return statuses;
 }
 
-}  // namespace
-
-}  // namespace fleetplan::fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace fleetplan::fuzz;
-  if (size < 2) return 0;
-  const std::string_view bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
-  const std::size_t packet = std::max<std::size_t>(1 + data[0], bytes.size() / 100);
+void run(Input input) {
+  if (input.size() < 2) return;
+  const std::string_view bytes = text_of(input).substr(1);
+  const std::size_t packet = std::max<std::size_t>(1 + input[0], bytes.size() / 100);
   const Conversation whole = converse(bytes, 0);
   const Conversation cut = converse(bytes, packet);
   require(whole.requests == cut.requests, "the requests depend on the packets",
@@ -146,5 +141,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
               joined(cut.requests));
   require(statuses(whole.answers) == statuses(cut.answers), "the answers depend on the packets",
           whole.answers + "\n---\n" + cut.answers);
-  return 0;
 }
+
+const Target target("http", run);
+
+}  // namespace TEST_FILE
+
+}  // namespace fleetplan::fuzz

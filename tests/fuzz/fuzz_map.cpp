@@ -15,7 +15,7 @@
 
 namespace fleetplan::fuzz {
 
-namespace {
+namespace TEST_FILE {
 
 using Json = nlohmann::json;
 
@@ -83,12 +83,12 @@ void try_map(std::uint8_t form, const std::string& file) {
   require(!grid.blocked({0, 0}), "a robot stands in a blocked cell");
 }
 
-}  // namespace
+void run(Input input) {
+  if (!input.empty()) try_map(input[0], std::string(text_of(input).substr(1)));
+}
+
+const Target target("map", run);
+
+}  // namespace TEST_FILE
 
 }  // namespace fleetplan::fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  if (size == 0) return 0;
-  fleetplan::fuzz::try_map(data[0], std::string(reinterpret_cast<const char*>(data) + 1, size - 1));
-  return 0;
-}

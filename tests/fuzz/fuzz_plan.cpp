@@ -14,7 +14,7 @@
 
 namespace fleetplan::fuzz {
 
-namespace {
+namespace TEST_FILE {
 
 using Json = nlohmann::json;
 
@@ -56,18 +56,18 @@ void require_proper_answer(const std::string& body, const std::string& reply) {
   require(Json::parse(verdict.body).at("valid") == true, "an answer is not valid", verdict.body + reply);
 }
 
-}  // namespace
-
-}  // namespace fleetplan::fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace fleetplan::fuzz;
-  const std::string body(reinterpret_cast<const char*>(data), size);
-  const fleetplan::api::Reply reply = fleetplan::api::plan_endpoint(body, context_now());
+void run(Input input) {
+  const std::string body(text_of(input));
+  const api::Reply reply = api::plan_endpoint(body, context_now());
   if (reply.status == 200) {
     require_proper_answer(body, reply.body);
   } else {
     require_proper_refusal(body, reply);
   }
-  return 0;
 }
+
+const Target target("plan", run);
+
+}  // namespace TEST_FILE
+
+}  // namespace fleetplan::fuzz

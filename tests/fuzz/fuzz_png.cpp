@@ -39,7 +39,7 @@ void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(me
 
 namespace fleetplan::fuzz {
 
-namespace {
+namespace TEST_FILE {
 
 using support::big_endian;
 using support::chunk;
@@ -197,11 +197,10 @@ void try_file(Choices choices) {
   require(outcome.channels == expected_channels(image), "other pixels");
 }
 
-}  // namespace
+void run(Input input) { try_file(Choices(input)); }
+
+const Target target("png", run);
+
+}  // namespace TEST_FILE
 
 }  // namespace fleetplan::fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  fleetplan::fuzz::try_file(fleetplan::fuzz::Choices({data, size}));
-  return 0;
-}

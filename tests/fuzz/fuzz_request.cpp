@@ -14,7 +14,7 @@
 
 namespace fleetplan::fuzz {
 
-namespace {
+namespace TEST_FILE {
 
 void require_within(const api::PlanRequest& request, const api::Limits& limits) {
   using std::chrono::milliseconds;
@@ -49,13 +49,14 @@ void try_validate_request(std::string_view body, const api::Limits& limits) {
   require(report.at("valid") == report.at("violations").empty(), "a report contradicts itself", reply.body);
 }
 
-}  // namespace
+void run(Input input) {
+  const std::string_view body = text_of(input);
+  const api::Limits limits = small_limits();
+  if (try_plan_request(body, limits)) try_validate_request(body, limits);
+}
+
+const Target target("request", run);
+
+}  // namespace TEST_FILE
 
 }  // namespace fleetplan::fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::string_view body(reinterpret_cast<const char*>(data), size);
-  const auto limits = fleetplan::fuzz::small_limits();
-  if (fleetplan::fuzz::try_plan_request(body, limits)) fleetplan::fuzz::try_validate_request(body, limits);
-  return 0;
-}

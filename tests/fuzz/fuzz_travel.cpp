@@ -15,7 +15,7 @@
 
 namespace fleetplan::fuzz {
 
-namespace {
+namespace TEST_FILE {
 
 using Json = nlohmann::json;
 
@@ -53,13 +53,13 @@ void try_assign(std::string_view body) {
           reply.body);
 }
 
-}  // namespace
+void run(Input input) {
+  try_matrix(text_of(input));
+  try_assign(text_of(input));
+}
+
+const Target target("travel", run);
+
+}  // namespace TEST_FILE
 
 }  // namespace fleetplan::fuzz
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::string_view body(reinterpret_cast<const char*>(data), size);
-  fleetplan::fuzz::try_matrix(body);
-  fleetplan::fuzz::try_assign(body);
-  return 0;
-}

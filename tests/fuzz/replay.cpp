@@ -1,8 +1,8 @@
-// Runs the target for builds without libFuzzer:
+// Runs targets in builds without libFuzzer. PROGRAM is fuzz_replay, or that of one target:
 //
-//   fuzz_NAME FOLDER...              every file of the folders, so that inputs found once remain tests
-//   fuzz_NAME --random SEED RUNS     so many random inputs; the same for a seed
-//   fuzz_NAME --random SEED RUNS N   input number N of them only, counted from 0
+//   PROGRAM TARGET FOLDER...              every file of the folders, so that inputs found once remain tests
+//   PROGRAM TARGET --random SEED RUNS     so many random inputs; the same for a seed
+//   PROGRAM TARGET --random SEED RUNS N   input number N of them only, counted from 0
 
 #include <cstdint>
 #include <filesystem>
@@ -14,6 +14,8 @@
 #include <vector>
 
 #include "tests/fuzz/target.h"
+
+namespace fleetplan::fuzz {
 
 namespace {
 
@@ -32,23 +34,22 @@ std::vector<std::uint8_t> random_input(std::uint64_t seed, std::uint64_t number)
   return bytes;
 }
 
-int run_random(std::uint64_t seed, std::uint64_t first, std::uint64_t end) {
+int run_random(Run run, std::uint64_t seed, std::uint64_t first, std::uint64_t end) {
   for (std::uint64_t number = first; number < end; ++number) {
     std::cout << "input " << number << std::endl;  // flushed: the last number is the failure
-    const auto input = random_input(seed, number);
-    LLVMFuzzerTestOneInput(input.data(), input.size());
+    run(random_input(seed, number));
   }
   return end > first ? 0 : 1;
 }
 
-int run_files(const std::vector<std::string>& folders) {
+int run_files(Run run, const std::vector<std::string>& folders) {
   int tried = 0;
   for (const std::string& folder : folders) {
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
       std::ifstream file(entry.path(), std::ios::binary);
-      const std::string input{std::istreambuf_iterator<char>(file), {}};
+      const std::vector<std::uint8_t> input{std::istreambuf_iterator<char>(file), {}};
       std::cout << entry.path().filename().string() << std::endl;  // flushed: the last name is the failure
-      LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(input.data()), input.size());
+      run(input);
       ++tried;
     }
   }
@@ -56,14 +57,25 @@ int run_files(const std::vector<std::string>& folders) {
   return tried > 0 ? 0 : 1;
 }
 
+int run_as_told(Run run, const std::vector<std::string>& how) {
+  if (how.size() < 3 || how[0] != "--random") return run_files(run, how);
+  const std::uint64_t seed = std::stoull(how[1]);
+  const std::uint64_t runs = std::stoull(how[2]);
+  if (how.size() == 3) return run_random(run, seed, 0, runs);
+  const std::uint64_t number = std::stoull(how[3]);
+  return run_random(run, seed, number, number + 1);
+}
+
 }  // namespace
 
+}  // namespace fleetplan::fuzz
+
 int main(int argc, char** argv) {
-  const std::vector<std::string> arguments(argv + 1, argv + argc);
-  if (arguments.size() < 3 || arguments[0] != "--random") return run_files(arguments);
-  const std::uint64_t seed = std::stoull(arguments[1]);
-  const std::uint64_t runs = std::stoull(arguments[2]);
-  if (arguments.size() == 3) return run_random(seed, 0, runs);
-  const std::uint64_t number = std::stoull(arguments[3]);
-  return run_random(seed, number, number + 1);
+  using namespace fleetplan::fuzz;
+  const auto found = targets().find(argc > 1 ? argv[1] : "");
+  if (found != targets().end()) return run_as_told(found->second, {argv + 2, argv + argc});
+  std::cerr << "the first argument is none of the targets:";
+  for (const auto& [name, run] : targets()) std::cerr << ' ' << name;
+  std::cerr << '\n';
+  return 64;
 }

@@ -1,9 +1,33 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
+// What a fuzz target is. A program has all of them, or one for libFuzzer.
 
-/// Every fuzz target defines this function, with the name that libFuzzer requires. It runs one input and
-/// returns 0, or aborts the process if a check fails.
-// NOLINTNEXTLINE(readability-identifier-naming)
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace fleetplan::fuzz {
+
+using Input = std::span<const std::uint8_t>;
+
+inline std::string_view text_of(Input input) {
+  return {reinterpret_cast<const char*>(input.data()), input.size()};
+}
+
+/// Runs one input; aborts the process if a check fails.
+using Run = void (*)(Input input);
+
+/// The targets of this program, by their names.
+inline std::map<std::string, Run>& targets() {
+  static std::map<std::string, Run> all;
+  return all;
+}
+
+/// Every source of a target defines one, which adds the target to those of the program.
+struct Target {
+  Target(const char* name, Run run) { targets()[name] = run; }
+};
+
+}  // namespace fleetplan::fuzz
