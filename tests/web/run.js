@@ -1,5 +1,6 @@
-// Runs `node --test` with these arguments, on all test files if none is named. Loading Playwright and starting Chromium
-// take longer than most tests, so the files of browser/ are run in batches: a process each, which runs file after file.
+// Runs `node --test` with these arguments, on all test files if none is named. Starting a process, and Chromium in it,
+// takes longer than most tests, so the files of browser/ and of unit/ are run in batches: a process each, which runs file
+// after file.
 
 import { spawn } from "node:child_process";
 import { once } from "node:events";
@@ -16,15 +17,15 @@ async function testFiles(folder) {
   return names.filter((name) => name.endsWith("_test.js")).map((name) => join(folder, name));
 }
 
-/** Writes a module to `folder` for each batch of the files, which imports them; about as much to each. */
-async function writeBatches(files, folder) {
+/** Writes a module to `folder` for each of so many batches of the files, which imports them; about as much to each. */
+async function writeBatches(files, folder, name, count) {
   const sized = await Promise.all(files.map(async (file) => ({ file, size: (await stat(file)).size })));
   sized.sort((one, other) => other.size - one.size);
-  /** @type {string[]} */ const modules = Array.from({ length: Math.min(BATCHES, files.length) }, () => "");
+  /** @type {string[]} */ const modules = Array.from({ length: Math.min(count, files.length) }, () => "");
   sized.forEach(({ file }, at) => {
     modules[at % modules.length] += `await import(${JSON.stringify(pathToFileURL(resolve(file)).href)});\n`;
   });
-  const batches = modules.map((text, at) => ({ path: join(folder, `batch_${at + 1}_test.mjs`), text }));
+  const batches = modules.map((text, at) => ({ path: join(folder, `${name}_${at + 1}_test.mjs`), text }));
   await Promise.all(batches.map(({ path, text }) => writeFile(path, text)));
   return batches.map(({ path }) => path);
 }
@@ -34,11 +35,16 @@ const options = given.filter((each) => each.startsWith("-"));
 const named = given.filter((each) => !each.startsWith("-"));
 const FOLDERS = ["browser", "static", "unit"];
 const files = named.length > 0 ? named : (await Promise.all(FOLDERS.map(testFiles))).flat();
-const inBrowser = (file) => resolve(file).startsWith(resolve("browser"));
+const within = (name) => files.filter((file) => resolve(file).startsWith(resolve(name)));
 const folder = await mkdtemp(join(tmpdir(), "fleetplan-page-tests-"));
 try {
-  const batches = await writeBatches(files.filter(inBrowser), folder);
-  const all = [...batches, ...files.filter((file) => !inBrowser(file))];
+  const [inBrowser, units] = [within("browser"), within("unit")];
+  const others = files.filter((file) => !inBrowser.includes(file) && !units.includes(file));
+  const all = [
+    ...(await writeBatches(inBrowser, folder, "browser", BATCHES)),
+    ...others,
+    ...(await writeBatches(units, folder, "unit", AT_ONCE)),
+  ];
   const tests = spawn(process.execPath, ["--test", `--test-concurrency=${AT_ONCE}`, ...options, ...all], {
     stdio: "inherit",
   });

@@ -13,7 +13,8 @@ export class TimelineOverview {
   #chart;
   #colours;
   #canvas = byId("timeline-overview");
-  #sums = /** @type {any} */ (null);
+  #ground = document.createElement("canvas"); // what stays while the plan plays
+  #place = ""; // where and how large it is painted; "" if it is not
   #width = 0;
   #scheduled = false;
 
@@ -25,7 +26,7 @@ export class TimelineOverview {
     new ResizeObserver(() => this.#measure()).observe(this.#canvas);
     session.on("answer", () => this.#reset());
     session.on("time", () => this.#redraw());
-    colours.onChange(() => this.#redraw());
+    colours.onChange(() => this.#reset());
     chart.onRange(() => this.#redraw());
     this.#canvas.addEventListener("pointerdown", (event) => {
       this.#canvas.setPointerCapture(event.pointerId);
@@ -48,7 +49,7 @@ export class TimelineOverview {
   }
 
   #reset() {
-    this.#sums = null;
+    this.#place = "";
     this.#redraw();
   }
 
@@ -60,39 +61,56 @@ export class TimelineOverview {
 
   #paint() {
     this.#scheduled = false;
+    if (this.#width === 0) return; // it was folded meanwhile
     const ratio = window.devicePixelRatio || 1;
-    Object.assign(this.#canvas, { width: this.#width * ratio, height: HEIGHT * ratio });
+    const [width, height] = [Math.round(this.#width * ratio), Math.round(HEIGHT * ratio)];
+    if (this.#canvas.width !== width || this.#canvas.height !== height) {
+      Object.assign(this.#canvas, { width, height });
+    }
+    const context = contextOf(this.#canvas);
+    context.setTransform(1, 0, 0, 1, 0, 0);
+    context.clearRect(0, 0, width, height);
     const { duration, time } = this.#session.player;
     if (duration <= 0) return;
-    const context = contextOf(this.#canvas);
+    const { left, width: span, range } = this.#chart.span;
+    const place = [left, span, width, height].join();
+    if (place !== this.#place) this.#paintGround(ratio);
+    this.#place = place;
+    context.drawImage(this.#ground, 0, 0);
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    const { left, width, range } = this.#chart.span;
     const { theme } = this.#colours;
-    this.#paintSums(context, theme, left, Math.max(1, Math.floor(width / STEP)));
-    const x = (t) => left + (t / duration) * width;
+    const x = (t) => left + (t / duration) * span;
     context.strokeStyle = theme.accent;
     context.lineWidth = 2;
     context.strokeRect(x(range.from) + 1, 1, x(range.to) - x(range.from) - 2, HEIGHT - 2);
     context.fillStyle = theme.ink;
     context.fillRect(x(time) - 1, 0, 2, HEIGHT);
-    context.font = `11px ${theme.font}`;
-    context.textBaseline = "middle";
-    context.fillStyle = theme.muted;
-    context.fillText("Whole plan", 8, HEIGHT / 2);
   }
 
-  #paintSums(context, theme, left, parts) {
+  /** Paints how many robots move, turn and wait. */
+  #paintGround(ratio) {
+    const { width, height } = this.#canvas;
+    Object.assign(this.#ground, { width, height }); // and clears it
     const { tracks, player } = this.#session;
-    this.#sums ??= overviewOf(tracks.values(), player.duration, parts);
+    const context = contextOf(this.#ground);
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    const { left, width: span } = this.#chart.span;
+    const { theme } = this.#colours;
+    const parts = Math.max(1, Math.floor(span / STEP));
+    const sums = overviewOf(tracks.values(), player.duration, parts);
     const most = Math.max(1, tracks.size);
     for (let at = 0; at < parts; at += 1) {
       let y = HEIGHT - 2;
       for (const kind of ORDER) {
-        const height = ((this.#sums[kind][at] ?? 0) / most) * (HEIGHT - 4);
+        const tall = ((sums[kind][at] ?? 0) / most) * (HEIGHT - 4);
         context.fillStyle = theme.states[kind];
-        context.fillRect(left + at * STEP, y - height, STEP, height);
-        y -= height;
+        context.fillRect(left + at * STEP, y - tall, STEP, tall);
+        y -= tall;
       }
     }
+    context.font = `11px ${theme.font}`;
+    context.textBaseline = "middle";
+    context.fillStyle = theme.muted;
+    context.fillText("Whole plan", 8, HEIGHT / 2);
   }
 }

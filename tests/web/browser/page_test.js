@@ -4,10 +4,11 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { choose, chosenExample, planAndPause, pressPlan, seek } from "../support/browser.js";
-import { expectedPose, headingGap } from "../support/expected_pose.js";
+import { expectedGap, expectedPose, headingGap } from "../support/expected_pose.js";
 import { coloursAt, hasTime, hook, pagesFor, paste, pasteText, REFUSED } from "../support/on_page.js";
 
 const NEAR = 1e-9; // metres and radians: both sides interpolate the same doubles
+const CHORDS = 5e-3; // metres: what chords of a change of speed may miss
 
 const onPage = pagesFor();
 const text = (page, selector) => page.innerText(selector);
@@ -51,7 +52,19 @@ test("one click on a fresh page plans and plays", async () => {
   });
 });
 
-test("every example loads, plans and plays its plan", async () => {
+/** Of an example's plan the smallest gap, but for pairs at rest, is at least min_clearance. */
+async function checkLeast(page, name, request, answer) {
+  await page.waitForFunction(() => window.fleetplan.least);
+  const { t, gap, ids } = await hook(page, "least");
+  // Where speeds change, gaps are measured along chords of the motion.
+  const accelerates = answer.plans.some(({ actions }) => actions.some(({ profile }) => profile));
+  const near = accelerates ? CHORDS : NEAR;
+  assert.ok(gap >= answer.min_clearance - near, `${name}: ${gap}, less than ${answer.min_clearance}`);
+  const loads = request.robots.some(({ goals }) => goals?.some((goal) => "radius_after" in goal));
+  if (!loads) assert.ok(Math.abs(expectedGap(request, answer, ids, t) - gap) < near, name);
+}
+
+test("every example loads, plans and plays its plan, whose smallest gap is known", async () => {
   await onPage(async (page) => {
     const { examples } = await page.evaluate(async () => (await fetch("v1/examples")).json());
     assert.ok(examples.length >= 3);
@@ -75,6 +88,7 @@ test("every example loads, plans and plays its plan", async () => {
           assert.ok(headingGap(drawn[at].theta, expected.theta) < NEAR, where);
         });
       }
+      await checkLeast(page, name, request, answer);
     }
   });
 });

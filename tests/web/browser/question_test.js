@@ -5,11 +5,10 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { choose, planAndPause, pressPlan, seek } from "../support/browser.js";
-import { expectedPose } from "../support/expected_pose.js";
+import { expectedGap as gapAt } from "../support/expected_pose.js";
 import { pagesFor, paste } from "../support/on_page.js";
 
 const NEAR = 1e-9; // metres
-const CHORDS = 5e-3; // metres: what chords of a change of speed may miss
 const DANGER = "198,47,38,255"; // --scene-danger where it is light
 const HEAD = 64; // pixels above the first row: the curve and the axis
 const ROW = 20;
@@ -33,17 +32,6 @@ const hasTime = (page, time, slack = 1e-9) =>
 const twoFrames = (page) =>
   page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 
-/** The gap between the disks of two robots at t, worked out from the plan alone. */
-function gapAt(request, answer, [one, other], t) {
-  const plans = new Map(answer.plans.map((plan) => [plan.robot, plan.actions]));
-  const [a, b] = [one, other].map((id) => {
-    const robot = request.robots.find((each) => each.id === id);
-    const radius = robot.radius ?? request.robot_defaults.radius;
-    return { ...expectedPose(robot.start, plans.get(id) ?? [], t, robot), radius };
-  });
-  return Math.hypot(b.x - a.x, b.y - a.y) - a.radius - b.radius;
-}
-
 /** Where a moment of the whole plan is in a row of the timeline, pixels in its box. */
 async function placeOf(page, row, share) {
   const width = await page.evaluate(() => document.getElementById("timeline-scroll").clientWidth);
@@ -54,23 +42,6 @@ async function placeOf(page, row, share) {
 async function pressRow(page, row, share) {
   await page.locator("#timeline-scroll").click({ position: await placeOf(page, row, share) });
 }
-
-test("in every example the smallest gap, but for pairs at rest, is at least min_clearance", async () => {
-  await onPage(async (page) => {
-    const { examples } = await page.evaluate(async () => (await fetch("v1/examples")).json());
-    for (const { name } of examples) {
-      const { request, answer } = await planned(page, name);
-      await page.waitForFunction(() => window.fleetplan.least);
-      const { t, gap, ids } = await hook(page, "least");
-      // Where speeds change, gaps are measured along chords of the motion.
-      const accelerates = answer.plans.some(({ actions }) => actions.some(({ profile }) => profile));
-      const near = accelerates ? CHORDS : NEAR;
-      assert.ok(gap >= answer.min_clearance - near, `${name}: ${gap}, less than ${answer.min_clearance}`);
-      const loads = request.robots.some(({ goals }) => goals?.some((goal) => "radius_after" in goal));
-      if (!loads) assert.ok(Math.abs(gapAt(request, answer, ids, t) - gap) < near, name);
-    }
-  });
-});
 
 test("the closest robots are those found by comparing all pairs", async () => {
   await onPage(async (page) => {

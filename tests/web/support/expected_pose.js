@@ -1,4 +1,4 @@
-// The pose of a robot under a plan, computed without code of the page, which must agree.
+// The poses of robots under a plan, and the gap between two, computed without code of the page, which must agree.
 
 const TURN = 2 * Math.PI;
 
@@ -51,4 +51,15 @@ function turn(from, to) {
 /** How far apart two headings are, radians in [0, pi]. */
 export function headingGap(a, b) {
   return Math.abs(Math.atan2(Math.sin(a - b), Math.cos(a - b)));
+}
+
+/** The gap between the disks of two robots at t, worked out from the plan alone. */
+export function expectedGap(request, answer, [one, other], t) {
+  const plans = new Map(answer.plans.map((plan) => [plan.robot, plan.actions]));
+  const [a, b] = [one, other].map((id) => {
+    const robot = request.robots.find((each) => each.id === id);
+    const radius = robot.radius ?? request.robot_defaults.radius;
+    return { ...expectedPose(robot.start, plans.get(id) ?? [], t, robot), radius };
+  });
+  return Math.hypot(b.x - a.x, b.y - a.y) - a.radius - b.radius;
 }

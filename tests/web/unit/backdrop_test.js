@@ -1,5 +1,5 @@
 import assert from "node:assert/strict";
-import { beforeEach, mock, test } from "node:test";
+import { test } from "node:test";
 
 import { Backdrop } from "../../../web/scene/backdrop.js";
 
@@ -7,16 +7,25 @@ const PARTS = 5;
 const MS_OF_PART = 1; // of the clock
 
 let clock = 0;
-mock.method(performance, "now", () => clock);
-globalThis.document = /** @type {any} */ ({
-  createElement() {
-    const canvas = { getContext: () => ({ canvas }) };
-    return canvas;
-  },
-});
-
 let painted = []; // the cameras whose parts were painted
-beforeEach(() => (painted = []));
+
+/** A test on that clock, with canvases. */
+function pictureTest(name, steps) {
+  test(name, (context) => {
+    painted = [];
+    context.mock.method(performance, "now", () => clock);
+    const createElement = () => {
+      const canvas = { getContext: () => ({ canvas }) };
+      return canvas;
+    };
+    globalThis.document = /** @type {any} */ ({ createElement });
+    try {
+      steps();
+    } finally {
+      Reflect.deleteProperty(globalThis, "document");
+    }
+  });
+}
 
 function* paintOf(camera) {
   for (let part = 0; part < PARTS; part += 1) {
@@ -37,14 +46,14 @@ function draw(backdrop, x, moving) {
   return { place, parts: painted.length - before };
 }
 
-test("at rest, the picture is painted at once, and once for each camera", () => {
+pictureTest("at rest, the picture is painted at once, and once for each camera", () => {
   const backdrop = new Backdrop();
   assert.deepEqual(draw(backdrop, 0, false), { place: 0, parts: PARTS });
   assert.deepEqual(draw(backdrop, 0, false), { place: 0, parts: 0 });
   assert.deepEqual(draw(backdrop, 7, false), { place: 0, parts: PARTS });
 });
 
-test("while the camera moves, the last picture is moved, and another one painted in parts", () => {
+pictureTest("while the camera moves, the last picture is moved, and another one painted in parts", () => {
   const backdrop = new Backdrop();
   draw(backdrop, 0, true);
   assert.deepEqual(draw(backdrop, 10, true), { place: -10, parts: 0 }, "the picture is new enough");
@@ -61,7 +70,7 @@ test("while the camera moves, the last picture is moved, and another one painted
   );
 });
 
-test("at rest, a picture in parts is given up for that of the camera", () => {
+pictureTest("at rest, a picture in parts is given up for that of the camera", () => {
   const backdrop = new Backdrop();
   draw(backdrop, 0, true);
   clock += 1000;
@@ -70,7 +79,7 @@ test("at rest, a picture in parts is given up for that of the camera", () => {
   assert.deepEqual(draw(backdrop, 21, true), { place: -1, parts: 0 });
 });
 
-test("another scene is painted at once, also while the camera moves", () => {
+pictureTest("another scene is painted at once, also while the camera moves", () => {
   const backdrop = new Backdrop();
   draw(backdrop, 0, true);
   backdrop.drop();
