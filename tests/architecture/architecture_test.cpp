@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -62,7 +64,9 @@ std::optional<std::string> defined_type(std::string_view line) {
   if (!line.starts_with("struct ") && !line.starts_with("class ")) return std::nullopt;
   line.remove_prefix(line.find(' ') + 1);
   const std::string_view name = line.substr(0, line.find(' '));
-  const bool is_definition = line.find('{') < line.find(';') && name.size() < line.find('{');
+  const bool is_word =
+      std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
+  const bool is_definition = is_word && line.find('{') < line.find(';') && name.size() < line.find('{');
   return is_definition ? std::optional<std::string>(name) : std::nullopt;
 }
 
