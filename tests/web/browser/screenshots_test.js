@@ -75,8 +75,11 @@ for (const [state, reach] of Object.entries(STATES)) {
 /** How many different colours the canvas shows. */
 function coloursIn(page) {
   return page.evaluate(() => {
-    const canvas = document.getElementById("scene");
-    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    const canvas = /** @type {HTMLCanvasElement} */ (document.getElementById("scene"));
+    const { width, height } = canvas;
+    const copy = new OffscreenCanvas(width, height).getContext("2d", { willReadFrequently: true });
+    copy.drawImage(canvas, 0, 0);
+    const { data } = copy.getImageData(0, 0, width, height);
     return new Set(new Uint32Array(data.buffer)).size;
   });
 }

@@ -2,16 +2,7 @@
 
 import { chromium } from "playwright-core";
 
-// With a process for graphics, or one for each site, a page costs a tenth more.
-const FLAGS = [
-  "--no-sandbox",
-  "--disable-gpu",
-  "--disable-quic",
-  "--in-process-gpu",
-  "--disable-site-isolation-trials",
-];
-
-const FRAME_MS = 40; // between frames of pages with few of them
+const FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic"];
 
 const PATIENCE_MS = 120_000; // what is waited for takes long only on a busy machine
 
@@ -26,13 +17,9 @@ const LAUNCH = {
 
 export const startBrowser = () => chromium.launch(LAUNCH);
 
-/**
- * A context whose waits take as long as a busy machine needs. Its browser has visited the page, unless `isNew`. With
- * `fewFrames`, its pages animate like on a slow screen, as without a GPU each frame takes milliseconds of a CPU.
- */
-export async function newContext(browser, { isNew = false, fewFrames = false, ...options } = {}) {
+/** A context whose waits take as long as a busy machine needs. Its browser has visited the page, unless `isNew`. */
+export async function newContext(browser, { isNew = false, ...options } = {}) {
   const context = await browser.newContext(options);
-  if (fewFrames) await context.addInitScript(spaceFrames, FRAME_MS);
   if (!isNew) {
     await context.addInitScript(() => {
       const isPage = location.protocol.startsWith("http"); // others have no storage
@@ -41,32 +28,6 @@ export async function newContext(browser, { isNew = false, fewFrames = false, ..
   }
   context.setDefaultTimeout(PATIENCE_MS);
   return context;
-}
-
-/** On the page: calls back for animations in frames that are at least so many milliseconds apart. */
-function spaceFrames(milliseconds) {
-  const nextFrame = requestAnimationFrame.bind(window);
-  /** @type {FrameRequestCallback[]} */ let waiting = [];
-  let last = -Infinity;
-  const call = (now) => {
-    last = now;
-    const called = waiting;
-    waiting = [];
-    for (const each of called) {
-      try {
-        each(now);
-      } catch (error) {
-        reportError(error);
-      }
-    }
-  };
-  window.requestAnimationFrame = (callback) => {
-    if (waiting.push(callback) > 1) return 0;
-    const wait = last + milliseconds - performance.now();
-    if (wait > 0) setTimeout(() => nextFrame(call), wait);
-    else nextFrame(call);
-    return 0;
-  };
 }
 
 /**

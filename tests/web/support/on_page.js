@@ -12,7 +12,7 @@ import { sharedBrowser, sharedService } from "./shared.js";
 export function pagesFor(flags = []) {
   return async (steps, { options = {}, allowed = null, hash = "" } = {}) => {
     const { url } = await sharedService(flags);
-    const opened = await openPage(await sharedBrowser(), url + hash, { fewFrames: true, ...options });
+    const opened = await openPage(await sharedBrowser(), url + hash, options);
     try {
       await steps(opened.page, { ...opened, url });
       const complaints = opened.complaints.filter((text) => !allowed?.test(text));
