@@ -74,18 +74,18 @@ inline Encounter random_encounter(support::Dice& dice) {
 }
 
 /// The smallest distance of the centres while both segments last; infinite if they do not overlap in time.
-/// The distance is convex, so bisection finds its minimum.
+/// Its square is convex, so bisection finds where its slope changes sign.
 inline double closest(const MovingDisk& a, const MovingDisk& b) {
   double low = std::max(a.t_start, b.t_start);
   double high = std::min(a.t_end, b.t_end);
   if (low > high) return kForever;
-  const auto distance = [&](double t) { return (a.at(t) - b.at(t)).norm(); };
-  for (int i = 0; i < 120; ++i) {
-    const double left = low + (high - low) / 3.0;
-    const double right = high - (high - low) / 3.0;
-    (distance(left) <= distance(right) ? high : low) = distance(left) <= distance(right) ? right : left;
+  const Position relative = a.velocity - b.velocity;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (Position(a.at(middle) - b.at(middle)).dot(relative) > 0.0 ? high : low) = middle;
   }
-  return distance(0.5 * (low + high));
+  const double t = 0.5 * (low + high);
+  return Position(a.at(t) - b.at(t)).norm();
 }
 
 }  // namespace fleetplan::core

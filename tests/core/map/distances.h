@@ -51,9 +51,13 @@ inline double obstacle_distance_of(const OccupancyGrid& grid, const Position& a,
     nearest = std::min({nearest, p.x(), p.y(), grid.width() - p.x(), grid.height() - p.y()});
   }
   const double size = grid.resolution();
+  const auto [left, right] = std::minmax({a.x(), b.x()});
+  const auto [bottom, top] = std::minmax({a.y(), b.y()});
   for (int row = 0; row < grid.rows(); ++row) {
+    if (row * size - top >= nearest || bottom - (row + 1) * size >= nearest) continue;
     for (int column = 0; column < grid.columns(); ++column) {
       if (!grid.blocked({column, row})) continue;
+      if (column * size - right >= nearest || left - (column + 1) * size >= nearest) continue;
       const Position low(column * size, row * size);
       nearest = std::min(nearest, segment_to_rectangle(a, b, low, low + Position(size, size)));
     }
