@@ -15,7 +15,8 @@ from fleetplan.http import Pool, Response, read_json
 from fleetplan.types import (AdvanceAnswer, AssignAnswer, DependenciesAnswer, Disturbance, Health, Hold, Limits,
                              LoneRobot, MatrixAnswer, MeasuredPose, NewGoals, OrderBase, OrderProgress, PacedState,
                              PlanAnswer, PlanEvent, PlanRequest, Plans, RetimeAnswer, RobotState, SimulationAnswer,
-                             SimulationEvent, Task, TravelPose, Vda5050Answer, Vda5050States, VdaMessage, Verdict)
+                             SimulationEvent, Task, TravelPose, Vda5050Answer, Vda5050States, VdaMessage, VehiclePose,
+                             Verdict)
 
 _PROBLEM_WITHOUT_BODY = "the answer is not problem details; is this a proxy?"
 _RETRY_AFTER = 1.0  # seconds, if the server does not say
@@ -61,9 +62,11 @@ class Client:
             yield cast(PlanEvent, {"event": name, "data": data})
 
     def advance(self, request: PlanRequest, plans: Plans, at: float, *, commit: float | None = None,
-                states: Sequence[RobotState] = (), poses: Sequence[MeasuredPose] = (), holds: Sequence[Hold] = (),
-                goals: Sequence[NewGoals] = (), pose_tolerance: float | None = None) -> AdvanceAnswer:
-        """The request of the moment `at`, seconds after the start of these plans, and where robots are in it."""
+                states: Sequence[RobotState] = (), poses: Sequence[MeasuredPose] | Sequence[VehiclePose] = (),
+                holds: Sequence[Hold] = (), goals: Sequence[NewGoals] = (),
+                pose_tolerance: float | None = None) -> AdvanceAnswer:
+        """The request of the moment `at`, seconds after the start of these plans, and where robots are in it. States and
+        poses may be those of import_vda5050."""
         body = _given(request=request, plans=plans["plans"], at=at, commit=commit, states=states or None,
                       poses=poses or None, holds=holds or None, goals=goals or None, pose_tolerance=pose_tolerance)
         return cast(AdvanceAnswer, self._post("/v1/advance", body, request))

@@ -17,7 +17,7 @@ from fleetplan.client import Client
 from fleetplan.errors import FleetplanError, RequestRefused
 from fleetplan.fleet_loop import LOOP_OPTIONS
 from fleetplan.planning_loop import PlanningLoop
-from fleetplan.types import (MeasuredPose, NewGoals, OrderBase, OrderProgress, PlanAnswer, PlanOptions, PlanRequest,
+from fleetplan.types import (NewGoals, OrderBase, OrderProgress, PlanAnswer, PlanOptions, PlanRequest,
                              Vda5050Answer, Vda5050States, VdaMessage, VehicleReport)
 
 # Those of a FleetLoop, but vehicles follow edges exactly, and may stand as near to each other as they like. For others,
@@ -226,11 +226,9 @@ class VdaLoop(PlanningLoop):
         base: list[OrderBase] = [
             {"robot": robot, "order": self._orders[robot], "state": reported[robot]}
             for robot, entry in plan.progress.items() if "order_id" in entry]
-        poses: list[MeasuredPose] = [
-            {"robot": pose["robot"], "x": pose["x"], "y": pose["y"], "theta": pose["theta"]} for pose in states["poses"]]
         goals: list[NewGoals] = [{"robot": robot, "goals": given} for robot, given in self._given.items()]
         advance = functools.partial(self._client.advance, plan.request, plan.answer, now - plan.begin,
-                                    states=states["states"], poses=poses, goals=goals)
+                                    states=states["states"], poses=states["poses"], goals=goals)
         return functools.partial(self._next_plan, advance, base, now)
 
     def _first_plan(self, now: float) -> _Plan:

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "core/geometry/angle.h"
+#include "core/geometry/segment.h"
 #include "core/geometry/tolerance.h"
 #include "core/verify/rules/plan_rules.h"
 
@@ -60,7 +60,6 @@ std::vector<Violation> check_endpoints(const Robot& robot, const RobotPlan& plan
 namespace {
 
 constexpr std::size_t kRestsBetweenPolls = 64;
-constexpr double kForever = std::numeric_limits<double>::infinity();
 
 /// An interval, from t_begin to t_end (infinity: the end of its plan), in which the robot neither moves nor
 /// turns.
