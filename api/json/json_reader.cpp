@@ -35,12 +35,10 @@ JsonReader::Items::Items(const JsonReader& container)
   end_ = {container.document_, container.value_->children().end()};
 }
 
-JsonReader::Items JsonReader::items() const {
-  return Items(value_ && value_->is_array() ? *this : JsonReader());
-}
+JsonReader::Items JsonReader::items() const { return Items(value_ && value_->is_array() ? *this : absent()); }
 
 JsonReader::Items JsonReader::members() const {
-  return Items(value_ && value_->is_object() ? *this : JsonReader());
+  return Items(value_ && value_->is_object() ? *this : absent());
 }
 
 std::string JsonReader::pointer() const { return locate(document_->root(), *value_).pointer; }
@@ -65,10 +63,10 @@ std::string_view JsonReader::note_on_null() const {
 }
 
 JsonReader JsonReader::object(std::span<const std::string_view> known) const {
-  if (!value_) return {};
+  if (!value_) return *this;
   if (!value_->is_object()) {
     must_be(fault::kWrongType, "an object");
-    return {};
+    return absent();
   }
   for (const JsonValue member : value_->children()) {
     const std::string_view key = member.key();
@@ -85,25 +83,24 @@ JsonReader JsonReader::object(std::span<const std::string_view> known) const {
 
 JsonReader JsonReader::find(std::string_view key) const {
   const auto member = value_ ? value_->find(key) : std::nullopt;
-  return member ? at(*member) : JsonReader();
+  return member ? at(*member) : absent();
 }
 
 JsonReader JsonReader::require(std::string_view key, std::string_view remedy) const {
-  if (!value_ || !value_->is_object()) return {};
+  if (!value_ || !value_->is_object()) return absent();
   if (const JsonReader member = find(key)) return member;
   // The fault is placed after the members that are there.
   document_->faults.add(value_->ends(), [&] {
     return Fault{pointer() + pointer_step(key), fault::kMissing,
                  std::string(key) + " is missing" + std::string(remedy) + "."};
   });
-  return {};
+  return absent();
 }
 
 JsonReader JsonReader::array() const {
-  if (!value_) return {};
-  if (value_->is_array()) return *this;
+  if (!value_ || value_->is_array()) return *this;
   wrong_type("an array");
-  return {};
+  return absent();
 }
 
 std::size_t JsonReader::size() const { return value_ && value_->is_array() ? value_->size() : 0; }

@@ -25,10 +25,11 @@ inline constexpr std::size_t kLongestName = 256;  // characters
 
 /// A value of a document, or the absence of one, with typed access. What is wrong with the value becomes a
 /// fault of the document, at the value's place; the read then returns nothing, as it does for an absent
-/// value. A reader is a handle, copied freely; the document must outlive it and stay where it is.
+/// value. A reader is a handle, copied freely; the document must outlive it and stay where it is. What is
+/// absent from a document knows which one, too.
 class JsonReader {
  public:
-  JsonReader() = default;  // absent
+  JsonReader() = default;  // absent, and of no document
   /// Reads the root of a document.
   explicit JsonReader(JsonDocument& document) : JsonReader(document, document.root()) {}
 
@@ -95,7 +96,7 @@ class JsonReader {
   Fault described_fault(const char* code, std::string detail) const {
     return {pointer(), code, std::move(detail)};
   }
-  /// The work that ends the reading of the document, which must be there.
+  /// The work that ends the reading of the document. The value may be absent.
   core::Work& stop() const { return *document_->work; }
   /// Counts faults of the document that are not described.
   void count_more_faults(std::size_t faults) const { document_->faults.count_more(faults); }
@@ -105,6 +106,11 @@ class JsonReader {
  private:
   JsonReader(JsonDocument& document, const JsonValue& value) : document_(&document), value_(value) {}
   JsonReader at(const JsonValue& value) const { return JsonReader(*document_, value); }
+  JsonReader absent() const {
+    JsonReader absent;
+    absent.document_ = document_;
+    return absent;
+  }
   std::string pointer() const;
   std::string name_in_messages() const;
   Fault unwanted(const char* code, std::string_view wanted, std::string_view note) const;

@@ -57,6 +57,10 @@ TEST(JsonReader, ReadsNothingFromAnAbsentValueWithoutAFault) {
   EXPECT_FALSE(absent.name());
   EXPECT_EQ(absent.array().size(), 0U);
   EXPECT_TRUE(read.faults.empty());
+  for (const JsonReader& part :
+       {absent, absent.object(kMembers), absent.array(), absent.find("b"), absent.require("b")}) {
+    EXPECT_EQ(&part.stop(), &JsonReader(read).stop()) << "work for what is absent is bounded, too";
+  }
 }
 
 TEST(JsonReader, ReportsFaultsAtTheirPlacesInTheOrderOfTheDocument) {
