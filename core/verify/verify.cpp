@@ -68,12 +68,23 @@ class FleetCheck {
     RobotPlan plan;
   };
 
+  /// Whether a plan is to visit this goal of the robot: by its list of visits or, without one, as it ends at
+  /// the last goal.
+  static bool serves(const Robot& robot, const RobotPlan& plan, std::size_t goal, double tolerance) {
+    if (!plan.visits.empty()) return goal < plan.visits.size();
+    const Position end = plan.actions.empty() ? robot.start.position : plan.actions.back().to.position;
+    return (end - robot.goal_at(robot.own_goal_count() - 1).position).norm() <= tolerance;
+  }
+
   std::optional<PutOff> without_goals_put_off(const Robot& robot, const RobotPlan* plan,
                                               const ZonesOfRobot& zones, const Tolerance& tolerance) const {
     if (!zones.may_leave_any()) return std::nullopt;
     const std::size_t first = goals_served_by_commitment(robot, tolerance, stop_);
-    const auto put_off =
-        zones.first_goal_put_off(robot, first, std::max(tolerance.metres, kContactTolerance));
+    const double margin = std::max(tolerance.metres, kContactTolerance);
+    const auto visits = [&](std::size_t goal) {
+      return plan != nullptr && serves(robot, *plan, goal, margin);
+    };
+    const auto put_off = zones.first_goal_put_off(robot, first, margin, visits);
     if (!put_off) return std::nullopt;
     PutOff less{robot, plan != nullptr ? *plan : RobotPlan{}};
     std::vector<Goal> goals(robot.via.begin(), robot.via.begin() + static_cast<std::ptrdiff_t>(*put_off));

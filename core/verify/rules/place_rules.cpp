@@ -175,16 +175,19 @@ double ZonesOfRobot::distance_to_leave(const Position& position, double reach) c
   return least;
 }
 
-std::optional<std::size_t> ZonesOfRobot::first_goal_put_off(const Robot& robot, std::size_t first,
-                                                            double tolerance) const {
+std::optional<std::size_t> ZonesOfRobot::first_goal_put_off(
+    const Robot& robot, std::size_t first, double tolerance,
+    const std::function<bool(std::size_t)>& visits) const {
   if (!may_leave_any_) return std::nullopt;
   double arrives = robot.radius;
   // Bounded: each goal once, and the corners of the zones, which a request may have.
   for (std::size_t k = 0; k < robot.own_goal_count(); ++k) {
     const double leaves = robot.goal_at(k).radius_after.value_or(arrives);
-    const double kept = std::max(arrives, leaves) - tolerance;
-    if (k >= first && distance_to_leave(robot.goal_at(k).position, kept) < kept) return k;
+    const double radius = std::max(arrives, leaves);
     arrives = leaves;
+    const double gap = distance_to_leave(robot.goal_at(k).position, radius + tolerance);
+    const bool may_be_put_off = k >= first && gap < radius + tolerance;
+    if (may_be_put_off && (gap < radius - tolerance || !visits(k))) return k;
   }
   return std::nullopt;
 }

@@ -52,9 +52,10 @@ class ZonesOfRobot {
   double distance_to_blocked(const Position& position, double reach) const;
 
   /// Returns the number of the first goal from `first` on at which the robot would be inside of a zone that
-  /// it may leave but not enter, by more than the tolerance (metres); none if there is none.
-  std::optional<std::size_t> first_goal_put_off(const Robot& robot, std::size_t first,
-                                                double tolerance) const;
+  /// it may leave but not enter; none if there is none. Where it is inside by less than the tolerance
+  /// (metres), or outside by less, the goal may be visited or put off: it is put off unless `visits(goal)`.
+  std::optional<std::size_t> first_goal_put_off(const Robot& robot, std::size_t first, double tolerance,
+                                                const std::function<bool(std::size_t)>& visits) const;
 
   /// Reports where the disk overlaps a blocked zone by more than the tolerance (metres): for each zone one
   /// violation for consecutive legs through which the overlap continues. `radii` are those of the disk in

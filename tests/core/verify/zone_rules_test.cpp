@@ -106,6 +106,31 @@ TEST(ZoneRules, TranslationsKeepWithinTheAngleOfAOneWayZone) {
   EXPECT_EQ(violations(zones, robot_at(15, 9.9), drive(1, 9.9)).size(), 1U);
 }
 
+TEST(ZoneRules, AGoalOnTheBorderOfAClosedZoneIsVisitedOrPutOff) {
+  std::vector<Zone> zones{square(Zone::Type::blocked)};
+  zones[0].may_leave = true;
+  const auto verdict = [&](double overlap, bool visits) {
+    std::vector<Robot> robots{robot_at(1, 7)};
+    robots[0].goal = Goal{{4.5 + overlap, 7}, std::nullopt};
+    PlanBuilder plan(0, robots[0]);
+    plan.translate_to(visits ? 4.5 + overlap : 3.0, 7);
+    const OccupancyGrid grid = open_map();
+    const std::vector<MovingObstacle> none;
+    CheckRules rules;
+    rules.tolerances.assign(1, Tolerance::of_all(1e-6));
+    const auto report = verify({grid, robots, none, &zones}, {plan.build()}, rules, StopCondition::never());
+    return report->violations.empty();
+  };
+  for (const double within : {-9e-7, -1e-12, 0.0, 1e-12, 9e-7}) {
+    EXPECT_TRUE(verdict(within, true)) << within;
+    EXPECT_TRUE(verdict(within, false)) << within;
+  }
+  EXPECT_FALSE(verdict(2e-6, true)) << "inside";
+  EXPECT_TRUE(verdict(2e-6, false)) << "inside";
+  EXPECT_TRUE(verdict(-2e-6, true)) << "outside";
+  EXPECT_FALSE(verdict(-2e-6, false)) << "outside";
+}
+
 TEST(ZoneRules, AZoneMayBeForSomeRobotsOnly) {
   std::vector<Zone> zones{square(Zone::Type::blocked)};
   zones[0].robots = {1};
