@@ -87,11 +87,11 @@ class FleetCheck {
     const auto put_off = zones.first_goal_put_off(robot, first, margin, visits);
     if (!put_off) return std::nullopt;
     PutOff less{robot, plan != nullptr ? *plan : RobotPlan{}};
-    std::vector<Goal> goals(robot.via.begin(), robot.via.begin() + static_cast<std::ptrdiff_t>(*put_off));
-    const bool moves = plan != nullptr && !plan->actions.empty();
-    less.robot.via = std::move(goals);
-    less.robot.goal =
-        Goal{moves ? plan->actions.back().to.position : robot.committed_end().position, std::nullopt};
+    less.robot.via.resize(*put_off);
+    const bool moves = less.plan.actions.size() > robot.committed.size();
+    const bool stays = *put_off == 0 && !moves && !robot.yields();  // as if it had no goal
+    const Pose end = less.plan.actions.empty() ? robot.committed_end() : less.plan.actions.back().to;
+    less.robot.goal = stays ? std::nullopt : std::optional(Goal{end.position, std::nullopt});
     less.plan.visits.resize(std::min(less.plan.visits.size(), *put_off));
     const bool visits_all_before = *put_off > 0 && less.plan.visits.size() == *put_off;
     if (visits_all_before) less.plan.visits.push_back({*put_off, plan->cost, kForever});

@@ -91,8 +91,10 @@ core::Action ActionChain::append(core::Action action, const JsonReader& item) {
   check_begin(action, item);
   check_type(action, item);
   if (item.fault_count() == before) {
+    const double given = sideways(action);  // as an answer repeats it
     action = joined(action);
     check_speed(action, item);
+    check_direction(action, std::max(given, sideways(action)), item);
     set_inertia(action, robot_);
     if (action.profile) check_profile(action, item);
     check_has_profile(action, item);
@@ -174,9 +176,12 @@ void ActionChain::check_speed(const core::Action& action, const JsonReader& item
              "; give it more time.";
     });
   }
-  if (!translates || sideways(action) <= kTolerance) return;
+}
+
+void ActionChain::check_direction(const core::Action& action, double off, const JsonReader& item) const {
+  if (action.type != core::Action::Type::translate || off <= kTolerance) return;
   item.fault(fault::kSpeed, [&] {
-    return name() + " moves " + number_text(sideways(action)) +
+    return name() + " moves " + number_text(off) +
            " m sideways; a translation must lead along the heading, forwards or backwards.";
   });
 }

@@ -73,6 +73,8 @@ class ActionChain {
   void check_begin(const core::Action& action, const JsonReader& item) const;
   void check_type(const core::Action& action, const JsonReader& item) const;
   void check_speed(const core::Action& action, const JsonReader& item) const;
+  /// `off`: how far a translation leads off the line of its heading, metres.
+  void check_direction(const core::Action& action, double off, const JsonReader& item) const;
   void check_profile(const core::Action& action, const JsonReader& item) const;
   void check_has_profile(const core::Action& action, const JsonReader& item) const;
   void check_speeds_meet(const core::Action& action, const JsonReader& item) const;

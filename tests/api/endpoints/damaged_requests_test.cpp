@@ -25,7 +25,7 @@ Json fleet() {
     "map": {"rows": ["............", "............", ".....##.....", "............", "............"],
             "resolution": 1.0, "origin": {"x": 1.0, "y": 2.0}},
     "robot_defaults": {"radius": 0.3, "linear_speed": 1.0, "angular_speed": 2.0, "vicinity": 0.1,
-                       "stop_distance": 0.2, "may_reverse": true},
+                       "stop_distance": 0.2, "may_reverse": true, "execution_margin": 0.01, "body_radius": 0.28},
     "robots": [
       {"id": "choosy", "start": {"x": 1.5, "y": 2.5, "theta": 0.0}, "idle": "yield",
        "goals": [{"any_of": [{"x": 11.5, "y": 2.5, "bias": 1.0}, {"x": 11.5, "y": 3.5, "theta": 0.0}], "service": 2.0,
@@ -33,7 +33,7 @@ Json fleet() {
                   "metadata": {"task": 7}}],
        "metadata": {"make": "x"}},
       {"id": "heavy", "start": {"x": 1.5, "y": 6.5, "theta": 0.0}, "linear_acceleration": 0.5,
-       "linear_deceleration": 0.5, "angular_acceleration": 2.0, "goal_age": 3.0,
+       "linear_deceleration": 0.5, "angular_acceleration": 2.0, "goal_age": 3.0, "weight": 2.0,
        "goals": [{"x": 6.5, "y": 6.5}, {"x": 11.5, "y": 6.5, "theta": 1.0}]},
       {"id": "returning", "start": {"x": 4.5, "y": 3.5, "theta": 0.0}, "idle": "return",
        "goal": {"any_of": [{"x": 10.5, "y": 3.5}, {"x": 10.5, "y": 5.5}]}}],
@@ -47,7 +47,10 @@ Json fleet() {
     "obstacles": [{"id": "person", "radius": 0.2, "after": "leaves",
                    "motion": [{"t": 0.0, "x": 7.5, "y": 2.2}, {"t": 3.0, "x": 7.5, "y": 6.5}]}],
     "options": {"time_budget_ms": 50, "seed": 1, "max_iterations": 5, "dependencies": true, "dependency_slack": 0.5,
-                "wait_before_move": 0.1, "inflation": 0.01, "start_safe_interval": 1.0, "horizon": 60.0},
+                "wait_before_move": 0.1, "inflation": 0.01, "start_safe_interval": 1.0, "horizon": 60.0, "mode": "anytime",
+                "objective": "flowtime", "priority": "longest_first", "reordering": "raise_failed", "any_angle": true,
+                "connectivity": 8, "replan": "all", "interval_margin": 0.0, "start_overlap": 0.0,
+                "invalid_robots": "report", "lattice_spacing": null, "execution_margin": 0.01},
     "metadata": {"list": [1, "two"]}})");
   return request;
 }
@@ -99,9 +102,21 @@ std::vector<std::pair<Endpoint, Json>> requests_about(const Json& request) {
     "map_ids": {"heavy": "ground"}, "release_ahead": 5.0})"));
   orders["map"] = request["map"];
   Json reports = orders;
-  reports["messages"] =
-      Json::parse(R"([{"serialNumber": "s1", "orderId": "o1", "orderUpdateId": 0, "lastNodeSequenceId": 0,
+  reports["progress"] = Json::array();
+  const Json exported = answer_of(vda5050_endpoint, orders);
+  for (const Json& order : exported["orders"]) {
+    reports["progress"].push_back({{"robot", order["robot"]},
+                                   {"order_id", order["order"]["orderId"]},
+                                   {"order_update_id", order["order"]["orderUpdateId"]},
+                                   {"last_released_sequence_id", order["last_released_sequence_id"]},
+                                   {"action", 0},
+                                   {"progress", 0.0}});
+  }
+  reports["messages"] = Json::parse(R"([{"serialNumber": "s1", "orderId": "", "orderUpdateId": 0,
+    "lastNodeSequenceId": 0, "driving": false, "nodeStates": [], "actionStates": [], "errors": [],
+    "velocity": {"vx": 0.1, "omega": 0.0},
     "agvPosition": {"x": 1.6, "y": 2.5, "theta": 0.0, "mapId": "floor", "positionInitialized": true}}])");
+  reports["messages"][0]["orderId"] = reports["progress"][0]["order_id"];
   return {{plan_endpoint, request},        {plan_endpoint, in_motion},        {validate_endpoint, merged},
           {dependencies_endpoint, merged}, {simulate_endpoint, simulation},   {advance_endpoint, moment},
           {retime_endpoint, retiming},     {matrix_endpoint, matrix},         {assign_endpoint, tasks},

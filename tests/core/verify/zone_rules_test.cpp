@@ -131,6 +131,21 @@ TEST(ZoneRules, AGoalOnTheBorderOfAClosedZoneIsVisitedOrPutOff) {
   EXPECT_FALSE(verdict(-2e-6, false)) << "outside";
 }
 
+TEST(ZoneRules, ARobotWhoseGoalsAreAllPutOffStaysAsOneWithoutAGoal) {
+  std::vector<Zone> zones{square(Zone::Type::blocked)};
+  zones[0].may_leave = true;
+  std::vector<Robot> robots{robot_at(2, 2)};
+  robots[0].goal = Goal{{7, 7}, std::nullopt};
+  const std::vector<MovingObstacle> passing{{"person", 0.3, {{0.0, {2, 9}}, {9.0, {2, 0}}}}};
+  const OccupancyGrid grid = open_map();
+  CheckRules rules;
+  rules.tolerances.assign(1, Tolerance::of_all(kTolerance));
+  rules.exempt = {{0, std::nullopt, 0, 6.2}};
+  const RobotPlan staying{0, 0.0, {}};
+  const auto report = verify({grid, robots, passing, &zones}, {staying}, rules, StopCondition::never());
+  EXPECT_THAT(report->violations, IsEmpty()) << "nothing prevents this collision";
+}
+
 TEST(ZoneRules, AZoneMayBeForSomeRobotsOnly) {
   std::vector<Zone> zones{square(Zone::Type::blocked)};
   zones[0].robots = {1};

@@ -18,11 +18,24 @@ export async function startService(flags = []) {
   all.push("--idle-timeout-ms", String(IDLE_MS), ...flags);
   const env = { ...process.env, FLEETPLAN_BIN: undefined }; // which the server would warn of
   const child = spawn(binary, all, { env, stdio: ["ignore", "pipe", "inherit"] });
+  const end = { wanted: false, unwanted: undefined };
   const ended = new Promise((resolve) => child.once("exit", resolve));
+  child.once("exit", (code, signal) => {
+    if (end.wanted) return;
+    end.unwanted = `the server ended by itself: ${signal ?? `exit code ${code}`}`;
+    console.error(end.unwanted);
+  });
+  const stop = async (signal) => {
+    if (end.unwanted) throw new Error(end.unwanted);
+    end.wanted = true;
+    child.kill(signal);
+    await ended;
+  };
   try {
     const url = await listening(child);
-    return { url, stop: () => stop(child, ended, "SIGTERM"), kill: () => stop(child, ended, "SIGKILL") };
+    return { url, stop: () => stop("SIGTERM"), kill: () => stop("SIGKILL") };
   } catch (error) {
+    end.wanted = true;
     child.kill("SIGKILL");
     throw error;
   }
@@ -47,9 +60,4 @@ function listening(child) {
       resolve(new URL("/", found[1]).href);
     });
   });
-}
-
-async function stop(child, ended, signal) {
-  child.kill(signal);
-  await ended;
 }

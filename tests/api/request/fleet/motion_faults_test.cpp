@@ -91,6 +91,8 @@ INSTANTIATE_TEST_SUITE_P(
                committed(r, 0)["to"]["y"] = 2.5;
              },
              "/robots/0/committed/0", "speed", "1 m sideways"},
+        Case{"SidewaysByTheHeadingGiven", [](Json& r) { committed(r, 0)["from"]["theta"] = 4.9e-7; },
+             "/robots/0/committed/0", "speed", "m sideways"},
         Case{"GoalOfATranslation", [](Json& r) { committed(r, 0)["goal"] = 0; }, "/robots/0/committed/0/goal",
              "unknown_key", "wait actions only"},
         Case{"OfPrevious",
