@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/geometry/angle.h"
 #include "core/geometry/tolerance.h"
 #include "core/verify/execution.h"
 #include "core/verify/pairs/check_pairs.h"
@@ -70,10 +71,14 @@ class FleetCheck {
 
   /// Whether a plan is to visit this goal of the robot: by its list of visits or, without one, as it ends at
   /// the last goal.
-  static bool serves(const Robot& robot, const RobotPlan& plan, std::size_t goal, double tolerance) {
+  static bool serves(const Robot& robot, const RobotPlan& plan, std::size_t goal,
+                     const Tolerance& tolerance) {
     if (!plan.visits.empty()) return goal < plan.visits.size();
-    const Position end = plan.actions.empty() ? robot.start.position : plan.actions.back().to.position;
-    return (end - robot.goal_at(robot.own_goal_count() - 1).position).norm() <= tolerance;
+    const Pose& end = plan.actions.empty() ? robot.start : plan.actions.back().to;
+    const Goal& last = robot.goal_at(robot.own_goal_count() - 1);
+    const double metres = std::max(tolerance.metres, kContactTolerance);
+    return (end.position - last.position).norm() <= metres &&
+           (!last.theta || angle_between(end.theta, *last.theta) <= tolerance.radians);
   }
 
   std::optional<PutOff> without_goals_put_off(const Robot& robot, const RobotPlan* plan,
@@ -82,7 +87,7 @@ class FleetCheck {
     const std::size_t first = goals_served_by_commitment(robot, tolerance, stop_);
     const double margin = std::max(tolerance.metres, kContactTolerance);
     const auto visits = [&](std::size_t goal) {
-      return plan != nullptr && serves(robot, *plan, goal, margin);
+      return plan != nullptr && serves(robot, *plan, goal, tolerance);
     };
     const auto put_off = zones.first_goal_put_off(robot, first, margin, visits);
     if (!put_off) return std::nullopt;

@@ -109,11 +109,11 @@ TEST(ZoneRules, TranslationsKeepWithinTheAngleOfAOneWayZone) {
 TEST(ZoneRules, AGoalOnTheBorderOfAClosedZoneIsVisitedOrPutOff) {
   std::vector<Zone> zones{square(Zone::Type::blocked)};
   zones[0].may_leave = true;
-  const auto verdict = [&](double overlap, bool visits) {
+  const auto is_valid = [&](double overlap, double end, double theta) {
     std::vector<Robot> robots{robot_at(1, 7)};
-    robots[0].goal = Goal{{4.5 + overlap, 7}, std::nullopt};
+    robots[0].goal = Goal{{4.5 + overlap, 7}, theta};
     PlanBuilder plan(0, robots[0]);
-    plan.translate_to(visits ? 4.5 + overlap : 3.0, 7);
+    plan.translate_to(end, 7);
     const OccupancyGrid grid = open_map();
     const std::vector<MovingObstacle> none;
     CheckRules rules;
@@ -122,13 +122,14 @@ TEST(ZoneRules, AGoalOnTheBorderOfAClosedZoneIsVisitedOrPutOff) {
     return report->violations.empty();
   };
   for (const double within : {-9e-7, -1e-12, 0.0, 1e-12, 9e-7}) {
-    EXPECT_TRUE(verdict(within, true)) << within;
-    EXPECT_TRUE(verdict(within, false)) << within;
+    EXPECT_TRUE(is_valid(within, 4.5 + within, 0.0)) << "visited, " << within;
+    EXPECT_TRUE(is_valid(within, 4.5 + within, 1.0)) << "put off in the same place, " << within;
+    EXPECT_TRUE(is_valid(within, 3.0, 0.0)) << "put off, " << within;
   }
-  EXPECT_FALSE(verdict(2e-6, true)) << "inside";
-  EXPECT_TRUE(verdict(2e-6, false)) << "inside";
-  EXPECT_TRUE(verdict(-2e-6, true)) << "outside";
-  EXPECT_FALSE(verdict(-2e-6, false)) << "outside";
+  EXPECT_FALSE(is_valid(2e-6, 4.5 + 2e-6, 0.0)) << "inside";
+  EXPECT_TRUE(is_valid(2e-6, 3.0, 0.0)) << "inside";
+  EXPECT_TRUE(is_valid(-2e-6, 4.5 - 2e-6, 0.0)) << "outside";
+  EXPECT_FALSE(is_valid(-2e-6, 3.0, 0.0)) << "outside";
 }
 
 TEST(ZoneRules, ARobotWhoseGoalsAreAllPutOffStaysAsOneWithoutAGoal) {
