@@ -4,7 +4,7 @@ import { rememberRows } from "../model/drawn_map.js";
 import { MapPreview } from "../scene/map_raster.js";
 import { element, setText } from "../ui/dom.js";
 import { FormDialog, numberField } from "../ui/form_dialog.js";
-import { metres } from "../ui/format.js";
+import { grouped, metres } from "../ui/format.js";
 import { FREE, OCCUPIED, smallestFactor, UNKNOWN } from "./ros_map.js";
 
 const MOST_MERGED = 100; // cells per side that are merged into one
@@ -101,9 +101,9 @@ export class RosMapDialog {
 
   #outcome(source, { grid, counts }) {
     const { columns, rows, cells, resolution, origin } = grid;
-    const total = cells.length.toLocaleString("en");
+    const total = grouped(cells.length);
     const size = `${columns} × ${rows} = ${total} cells of ${metres(resolution)}`;
-    const most = this.#most.toLocaleString("en");
+    const most = grouped(this.#most);
     if (cells.length > this.#most)
       return `${size}: the service accepts at most ${most}. Merge at least ${smallestFactor(source, this.#most)}.`;
     const blocked = counts[OCCUPIED] + (this.#unknownFree.checked ? 0 : counts[UNKNOWN]);

@@ -2,7 +2,7 @@
 
 import { planFile } from "../model/plan_file.js";
 import { byId, makeClosable, setText } from "../ui/dom.js";
-import { count } from "../ui/format.js";
+import { count, grouped } from "../ui/format.js";
 import { LONGEST_LINK } from "./address.js";
 import { saveText } from "./downloads.js";
 
@@ -53,7 +53,7 @@ function tooLong(length, { grid, robots }) {
   const cells = count((grid?.columns ?? 0) * (grid?.rows ?? 0), "cell");
   return (
     `This request is too large for a link: with ${cells} and ${count(robots.length, "robot")} it would have ` +
-    `${count(length, "character")}, and links of more than ${LONGEST_LINK.toLocaleString("en")} are often truncated. ` +
+    `${count(length, "character")}, and links of more than ${grouped(LONGEST_LINK)} are often truncated. ` +
     "Save the request and send the file."
   );
 }

@@ -1,7 +1,7 @@
 // Planning: the buttons that start and cancel it, and its progress: time, robots planned, the falling cost.
 
 import { byId, element, setText, svgElement } from "../ui/dom.js";
-import { count, seconds } from "../ui/format.js";
+import { count, grouped, seconds } from "../ui/format.js";
 import { revealProblem } from "./problem_card.js";
 import { summarize } from "./summary.js";
 
@@ -62,8 +62,8 @@ export function budgetOf(request, limits) {
 
 /** The progress of planning, in words; the cost that the plan minimises comes first. */
 export function describeProgress({ attempt, planned, robots, best }, objective) {
-  const done = `${planned.toLocaleString("en")} of ${count(robots, "robot")} planned`;
-  const again = attempt > 1 ? `, attempt ${attempt.toLocaleString("en")}` : "";
+  const done = `${grouped(planned)} of ${count(robots, "robot")} planned`;
+  const again = attempt > 1 ? `, attempt ${grouped(attempt)}` : "";
   if (best === null) return `${done}${again}`;
   const costs = [objective, OTHER[objective]].map((name) => `${name} ${seconds(best[name])}`);
   return `${done}${again}, ${costs.join(", ")}`;

@@ -1,7 +1,7 @@
 // The outcome of planning: the figures of the answer.
 
 import { byId, element, icon } from "../ui/dom.js";
-import { count, metres, milliseconds, seconds } from "../ui/format.js";
+import { count, grouped, metres, milliseconds, seconds } from "../ui/format.js";
 
 const TICK = "M4.5 10.5 8.5 14.5 15.5 6";
 const CROSS = "M5 5 15 15M15 5 5 15";
@@ -98,7 +98,7 @@ function badges(answer, check) {
 /** What still holds of a plan whose request was edited. */
 function outdatedNote({ plans }, outdated) {
   const holding = plans.filter(({ robot }) => !outdated.has(robot)).length;
-  const note = `${holding.toLocaleString("en")} of ${count(plans.length, "plan")} still hold.`;
+  const note = `${grouped(holding)} of ${count(plans.length, "plan")} still hold.`;
   return element(
     "div",
     { class: "badges" },

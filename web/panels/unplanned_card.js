@@ -1,7 +1,7 @@
 // The robots without a plan, by the reasons, and more time for those that had too little; and robots that are stuck.
 
 import { byId, element } from "../ui/dom.js";
-import { seconds } from "../ui/format.js";
+import { grouped, seconds } from "../ui/format.js";
 import { andMore, robotChip } from "./robot_list.js";
 
 const MOST_UNFOLDED = 12; // robots of a reason
@@ -87,7 +87,7 @@ function groupOf(session, reason, entries) {
     {},
     element("span", { class: "reason", textContent: name }),
     " ",
-    element("span", { class: "count", textContent: entries.length.toLocaleString("en") }),
+    element("span", { class: "count", textContent: grouped(entries.length) }),
   );
   const list = element("ul", { class: "stuck" }, ...entries.map((entry) => robotCard(session, entry)));
   const open = entries.length <= MOST_UNFOLDED;
