@@ -46,7 +46,7 @@ Json fleet() {
        "polygon": [{"x": 8.0, "y": 2.0}, {"x": 9.0, "y": 2.0}, {"x": 9.0, "y": 3.0}]}],
     "obstacles": [{"id": "person", "radius": 0.2, "after": "leaves",
                    "motion": [{"t": 0.0, "x": 7.5, "y": 2.2}, {"t": 3.0, "x": 7.5, "y": 6.5}]}],
-    "options": {"time_budget_ms": 50, "seed": 1, "max_iterations": 5, "dependencies": true, "dependency_slack": 0.5,
+    "options": {"time_budget_ms": 1000, "seed": 1, "max_iterations": 5, "dependencies": true, "dependency_slack": 0.5,
                 "wait_before_move": 0.1, "inflation": 0.01, "start_safe_interval": 1.0, "horizon": 60.0, "mode": "anytime",
                 "objective": "flowtime", "priority": "longest_first", "reordering": "raise_failed", "any_angle": true,
                 "connectivity": 8, "replan": "all", "interval_margin": 0.0, "start_overlap": 0.0,
