@@ -1,9 +1,9 @@
 // The forms of robots: the list to select one from, the form of the selected robot, the defaults of all
 // robots.
 
-import { degreesOf } from "../model/degrees.js";
+import { degreesOf, radiansOf } from "../model/degrees.js";
 import { nameOf, setDefault, setRobot } from "../model/edit_request.js";
-import { lastGoalOf, lastGoalPlace } from "../model/goals.js";
+import { alternativesOf, lastGoalOf, lastGoalPlace } from "../model/goals.js";
 import { robotsOf } from "../model/listed.js";
 import { robotIndexOf } from "../model/problem.js";
 import { chosenIn } from "../ui/choices.js";
@@ -77,7 +77,7 @@ export class RobotForm {
 
   /** Sets x or y, metres, or theta, degrees. */
   #setPose(pose, name, value) {
-    const inUnits = name === "theta" && value !== undefined ? (value * Math.PI) / 180 : value;
+    const inUnits = name === "theta" ? radiansOf(value) : value;
     this.#actions.setPose(pose, { [name]: inUnits }, `robot ${this.#choice.index} ${pose} ${name}`);
   }
 
@@ -101,7 +101,7 @@ export class RobotForm {
     this.#refreshPose("start", robot.start, `${pointer}/start`);
     this.#refreshPose("goal", goal, `${pointer}/${lastGoalPlace(robot)}`);
     this.#hasGoal.checked = goal !== undefined;
-    byId("robot-goal-numbers").hidden = goal === undefined;
+    byId("robot-goal-numbers").hidden = goal === undefined || alternativesOf(goal).length > 0;
   }
 
   #refreshPose(pose, place, pointer) {

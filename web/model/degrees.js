@@ -6,5 +6,5 @@ import { tidy } from "./cells.js";
 export const degreesOf = (radians) =>
   typeof radians === "number" ? tidy((radians * 180) / Math.PI) : radians;
 
-/** Degrees as round radians; undefined stays. */
-export const radiansOf = (degrees) => (degrees === undefined ? degrees : tidy((degrees * Math.PI) / 180));
+/** Degrees as radians, not rounded, so that degreesOf them is what was typed; undefined stays. */
+export const radiansOf = (degrees) => (degrees === undefined ? degrees : (degrees * Math.PI) / 180);

@@ -1,7 +1,7 @@
 // Edits of the goals of a robot, in the order of its visits; see edit_request.js and goals.js. Pure. Metres, seconds.
 
 import { objectOf, withMembers } from "./edit_request.js";
-import { goalsOf } from "./goals.js";
+import { alternativesOf, goalsOf } from "./goals.js";
 import { robotsOf } from "./listed.js";
 
 /** The request with members of one of a robot's goals set, or removed if undefined. */
@@ -28,6 +28,38 @@ export function advanceGoal(request, index, number) {
     const [before, goal] = [goals[number - 1], goals[number]];
     return [...goals.slice(0, number - 1), goal, before, ...goals.slice(number + 1)];
   });
+}
+
+/** The request with a pose more at which one of a robot's goals may be served, besides its own pose or poses. */
+export function appendAlternative(request, index, number, pose) {
+  return withAlternatives(request, index, number, (poses) => [...poses, pose]);
+}
+
+/** The request with members of one of a goal's alternative poses set, or removed if undefined. */
+export function setAlternative(request, index, number, at, members) {
+  return withAlternatives(request, index, number, (poses) =>
+    poses.map((pose, place) => (place === at ? withMembers(objectOf(pose), members) : pose)),
+  );
+}
+
+/** The request without one of a goal's alternative poses; of two, the other one is the goal. */
+export function removeAlternative(request, index, number, at) {
+  return withAlternatives(request, index, number, (poses) => poses.filter((_, place) => place !== at));
+}
+
+/** A goal with one pose has its members, with several `any_of`. */
+function withAlternatives(request, index, number, change) {
+  return withGoals(request, index, (goals) =>
+    goals.map((goal, at) => {
+      if (at !== number) return goal;
+      const { x, y, theta, any_of: _, ...rest } = objectOf(goal);
+      const listed = alternativesOf(goal);
+      const poses = change(listed.length > 0 ? listed : [withMembers({ x, y }, { theta })]);
+      if (poses.length > 1) return { any_of: poses, ...rest };
+      const { bias: __, ...pose } = objectOf(poses[0]);
+      return { ...pose, ...rest };
+    }),
+  );
 }
 
 /** A robot with one goal has `goal`, with several `goals`, as people write them. */

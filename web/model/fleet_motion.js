@@ -18,7 +18,7 @@ const WORKER = new URL("./clearance_worker.js", import.meta.url);
  * The motions of robots by id, in their order.
  * @returns {Map<string, Motion>}
  */
-export function motionsOf(robots, tracks) {
+function motionsOf(robots, tracks) {
   return new Map(
     robots.map((robot) => {
       const { actions, radii } = tracks.get(robot.id);
@@ -27,8 +27,20 @@ export function motionsOf(robots, tracks) {
   );
 }
 
+/** The same motions of disks that include the distance which each robot keeps from others, its vicinity. */
+function withVicinity(robots, motions) {
+  const vicinities = new Map(robots.map(({ id, vicinity }) => [id, vicinity]));
+  return new Map(
+    [...motions].map(([id, { radius, knots, radii }]) => {
+      const more = vicinities.get(id) ?? 0;
+      const later = radii.map((each) => ({ ...each, radius: each.radius + more }));
+      return [id, { radius: radius + more, knots, radii: later }];
+    }),
+  );
+}
+
 /** The two robots that are nearest to each other. */
-export class NearestPair {
+class NearestPair {
   #ids;
   #sweep;
   /** @type {{time: number | null, pair: {ids: string[], gap: number} | null}} */
@@ -55,11 +67,15 @@ const idsOf = (ids, first, second) => [Math.min(first, second), Math.max(first, 
 
 export class FleetMotion {
   #session;
+  #compute;
   #signals = new Signals();
   /** @type {Map<string, Motion> | null} */
   #byId = null;
   /** @type {NearestPair | null} */
   #nearest = null;
+  /** @type {WeakMap<object, NearestPair>} */
+  #nearestOfOthers = new WeakMap(); // by the tracks of another plan
+  #beyondVicinity = false;
 
   /** The smallest gap over time, see clearanceOf; null without an answer, while that is outdated, and until it is computed. */
   curve = /** @type {any} */ (null);
@@ -67,25 +83,50 @@ export class FleetMotion {
   /** `compute(motions)` resolves to the curve, unless it is called again before. */
   constructor(session, compute) {
     this.#session = session;
+    this.#compute = compute;
     session.on("answer", () => {
-      const { answer } = session;
-      this.#byId = this.#nearest = this.curve = null;
-      this.#signals.emit("curve");
-      if (answer !== null && !session.outdated) this.#compute(compute);
+      this.#byId = null;
+      this.#measure();
     });
   }
 
-  async #compute(compute) {
+  /** Forgets the gaps, and computes them again. */
+  #measure() {
+    const { answer, outdated } = this.#session;
+    this.#nearest = this.curve = null;
+    this.#nearestOfOthers = new WeakMap();
+    this.#signals.emit("curve");
+    if (answer !== null && !outdated) this.#computeCurve();
+  }
+
+  async #computeCurve() {
     const { answer } = this.#session;
+    const beyond = this.#beyondVicinity;
+    const isShown = () => answer === this.#session.answer && beyond === this.#beyondVicinity;
     try {
-      const curve = await compute([...this.byId.values()]);
-      if (answer !== this.#session.answer) return;
+      const curve = await this.#compute([...this.#measured(this.byId).values()]);
+      if (!isShown()) return;
       this.curve = curve;
       this.#signals.emit("curve");
     } catch (error) {
-      const isShown = answer === this.#session.answer && !this.#session.problem;
-      if (isShown) this.#session.fail(error, () => this.#compute(compute));
+      if (isShown() && !this.#session.problem) this.#session.fail(error, () => this.#computeCurve());
     }
+  }
+
+  /** Motions of the disks between which gaps are measured. */
+  #measured(motions) {
+    return this.#beyondVicinity ? withVicinity(this.#session.scene.robots, motions) : motions;
+  }
+
+  /** Whether gaps are between what robots keep free, their disks and vicinities, instead of their disks. */
+  get beyondVicinity() {
+    return this.#beyondVicinity;
+  }
+
+  set beyondVicinity(beyond) {
+    if (beyond === this.#beyondVicinity) return;
+    this.#beyondVicinity = beyond;
+    this.#measure();
   }
 
   /** `listener` is called when the curve changes. */
@@ -99,10 +140,23 @@ export class FleetMotion {
     return this.#byId;
   }
 
-  /** The two robots that are nearest to each other at a time: {ids, gap}, or null if there are no two. */
-  nearestAt(time) {
-    this.#nearest ??= new NearestPair(this.byId);
+  /**
+   * The two robots that are nearest to each other at a time, by the answer or by the tracks of another plan: {ids, gap},
+   * or null if there are no two.
+   */
+  nearestAt(time, tracks = this.#session.tracks) {
+    if (tracks !== this.#session.tracks) return this.#nearestOf(tracks).at(time);
+    this.#nearest ??= new NearestPair(this.#measured(this.byId));
     return this.#nearest.at(time);
+  }
+
+  #nearestOf(tracks) {
+    let nearest = this.#nearestOfOthers.get(tracks);
+    if (!nearest) {
+      nearest = new NearestPair(this.#measured(motionsOf(this.#session.scene.robots, tracks)));
+      this.#nearestOfOthers.set(tracks, nearest);
+    }
+    return nearest;
   }
 
   /** The smallest gap of the plan but for pairs at rest: {t, gap, ids}, or null. */

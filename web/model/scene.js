@@ -67,10 +67,17 @@ function readRobots(request) {
       alternatives: goalsOf(robot).map((each) => alternativesOf(each).map(readPose)),
       radiiAfter: goalsOf(robot).map((each) => (positive(each?.radius_after) ? each.radius_after : null)),
       committed,
+      vicinity: vicinityOf(robot, request.robot_defaults),
       inertia: inertiaOf(robot, request.robot_defaults),
     });
   });
   return robots;
+}
+
+/** The distance that a robot keeps from others, metres. */
+function vicinityOf(robot, defaults) {
+  const vicinity = robot?.vicinity ?? defaults?.vicinity;
+  return positive(vicinity) ? vicinity : 0;
 }
 
 /** The actions that can be drawn. */

@@ -21,7 +21,8 @@ const STATUS = { parked: "Parked", ready: "", outdated: "" };
 
 /**
  * `chart` has layout (see model/gantt.js, whose rows begin below the strip and the axis), ids (row by row),
- * session, colours (see RobotColours), curve (see clearanceOf, or null) and threshold (of gaps, metres, or null).
+ * session, colours (see RobotColours), curve (see clearanceOf, or null), beyondVicinity (see FleetMotion) and threshold
+ * (of gaps, metres, or null).
  */
 export function paintGantt(context, chart) {
   const { layout, colours } = chart;
@@ -33,7 +34,7 @@ export function paintGantt(context, chart) {
   context.clearRect(0, 0, layout.left + layout.width + PAD, layout.top);
   paintAxis(context, layout, theme);
   clipped(context, layout, 0, STRIP, () => paintCurve(context, layout, theme, chart.curve, chart.threshold));
-  paintStripLabel(context, layout, theme, chart.curve);
+  paintStripLabel(context, layout, theme, chart);
   if (chart.session.answer === null) paintHint(context, layout, theme);
 }
 
@@ -65,10 +66,10 @@ function paintAxis(context, layout, theme) {
   context.textAlign = "left";
 }
 
-function paintStripLabel(context, layout, theme, curve) {
+function paintStripLabel(context, layout, theme, { curve, beyondVicinity }) {
   context.font = `${FONT - 1}px ${theme.font}`;
   context.fillStyle = theme.muted;
-  context.fillText("Smallest gap", PAD, STRIP / 2 - (curve ? 7 : 0));
+  context.fillText(beyondVicinity ? "Beyond vicinity" : "Smallest gap", PAD, STRIP / 2 - (curve ? 7 : 0));
   if (curve === null) return;
   context.fillText(`0 to ${largestGap(curve, layout.range).toFixed(1)} m`, PAD, STRIP / 2 + 8);
 }

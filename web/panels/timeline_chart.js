@@ -178,6 +178,7 @@ export class TimelineChart {
       session: this.#session,
       colours: this.#colours,
       curve: this.#fleet.curve,
+      beyondVicinity: this.#fleet.beyondVicinity,
       threshold: this.#threshold,
     });
     const { theme } = this.#colours;

@@ -4,7 +4,7 @@
 import { delayOf } from "../model/gantt.js";
 import { byId, setText } from "../ui/dom.js";
 import { metres } from "../ui/format.js";
-import { watchGapThreshold } from "./gap_threshold.js";
+import { watchGaps } from "./gaps.js";
 import { TimelineChart } from "./timeline_chart.js";
 import { TimelineOverview } from "./timeline_overview.js";
 
@@ -36,7 +36,7 @@ export class TimelineDock {
     this.#toggle.addEventListener("click", () => this.#fold(!this.#body.hidden));
     this.#sort.addEventListener("change", () => this.#chart.sortBy(this.#sort.value));
     this.#least.addEventListener("click", () => show(fleet.least.ids, fleet.least.t));
-    watchGapThreshold(session, fleet, this.#chart, show);
+    watchGaps(session, fleet, this.#chart, show);
     this.#watchDivider();
     const narrow = matchMedia("(max-width: 820px)");
     this.#fold(narrow.matches);
@@ -47,7 +47,11 @@ export class TimelineDock {
       byId("legend-bound").hidden = !known;
     });
     session.on("answer time playback", () => this.#showClosest());
-    fleet.onCurve(() => this.#showLeast());
+    fleet.onCurve(() => {
+      this.#showLeast();
+      this.#updated = -Infinity;
+      this.#showClosest();
+    });
   }
 
   /** `paint(context, theme, {layout, ids})` paints on top of the chart, see gantt.js. */

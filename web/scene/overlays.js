@@ -1,7 +1,6 @@
 // Overlays on the scene: blocking robots, violations of a checked plan, the closest pair.
 
 import { violationsAt } from "../model/checks.js";
-import { motionsOf, NearestPair } from "../model/fleet_motion.js";
 import { robotPoseAt, robotRadiusAt } from "../model/scene.js";
 import { byId } from "../ui/dom.js";
 import { metres } from "../ui/format.js";
@@ -53,7 +52,6 @@ export class ClosestOverlay {
   #button = byId("show-closest");
   #on = false;
   #peeking = false;
-  #others = new WeakMap(); // the tracks of another plan -> NearestPair
 
   /** `fleet`: see FleetMotion. */
   constructor(session, stage, fleet) {
@@ -61,6 +59,7 @@ export class ClosestOverlay {
     this.#stage = stage;
     this.#fleet = fleet;
     this.#button.addEventListener("click", () => this.toggle());
+    fleet.onCurve(() => stage.redraw());
     stage.addOverlay((context, view) => this.#paint(context, view), { shared: true });
   }
 
@@ -79,17 +78,9 @@ export class ClosestOverlay {
 
   #paint(context, view) {
     if (!this.#on && !this.#peeking) return;
-    const pair = this.#nearestIn(view);
+    const pair = this.#fleet.nearestAt(view.time, view.tracks);
     const disks = pair?.ids.map((id) => diskIn(this.#session, view, id)) ?? [null];
     if (!disks.includes(null)) paintGap(context, view.theme, disks, pair.gap);
-  }
-
-  #nearestIn({ tracks, time }) {
-    if (tracks === this.#session.tracks) return this.#fleet.nearestAt(time);
-    if (!this.#others.has(tracks)) {
-      this.#others.set(tracks, new NearestPair(motionsOf(this.#session.scene.robots, tracks)));
-    }
-    return this.#others.get(tracks).at(time);
   }
 }
 

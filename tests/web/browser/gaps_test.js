@@ -96,3 +96,25 @@ test("a violation shows its robots close up", async () => {
     assert.ok(radius > 2 * before.radius, `${before.radius} to ${radius} pixels`);
   });
 });
+
+test("gaps may be measured beyond vicinities, if robots have one", async () => {
+  await onPage(async (page) => {
+    await planned(page);
+    assert.equal(await page.isVisible("#gap-vicinity"), false);
+    const robots = HALL.robots.map((each, at) => (at === 3 ? { ...each, vicinity: 0.15 } : each));
+    await paste(page, { ...HALL, robots });
+    await page.waitForFunction(() => window.fleetplan.request.robots[3].vicinity === 0.15);
+    await pressPlan(page);
+    await page.waitForFunction(() => window.fleetplan.least);
+    assert.ok(Math.abs((await hook(page, "least")).gap - 0.2) < 1e-3);
+    assert.match(await page.innerText("#timeline-least"), /^Smallest gap 200 mm$/);
+    await page.fill("#gap-threshold", "100");
+    assert.equal(await page.innerText("#gap-next"), "never");
+
+    await page.check("#gap-vicinity");
+    await page.waitForFunction(() => window.fleetplan.least?.gap < 0.1);
+    assert.ok(Math.abs((await hook(page, "least")).gap - 0.05) < 1e-3);
+    assert.match(await page.innerText("#timeline-least"), /^Smallest gap 50 mm$/);
+    assert.equal(await page.innerText("#gap-next"), "1 time");
+  });
+});

@@ -46,6 +46,47 @@ test("a goal is added, placed, served and moved earlier by keys alone, and the p
   });
 });
 
+test("a goal gets another pose by keys alone, one of both is planned, and a fault is shown at its field", async () => {
+  await onPage(
+    async (page) => {
+      await paste(page, HALL);
+      await page.click("#tab-edit");
+      await page.selectOption("#edited-robot", "0");
+      await page.click("#goals summary");
+      await page.getByRole("button", { name: "Or another pose: goal 1" }).focus();
+      await page.keyboard.press("Enter");
+      assert.equal(await page.isVisible("#robot-goal-numbers"), false);
+      const pose = page.locator("#goals-list .poses-list li").nth(1);
+      for (const [label, text] of [
+        ["x", "1.5"],
+        ["y", "0.5"],
+        ["Heading", "90"],
+        ["Bias", "0.25"],
+      ]) {
+        await pose.getByLabel(label).focus();
+        await page.keyboard.press("Control+a");
+        await page.keyboard.type(text);
+      }
+      const [{ goal }] = (await hook(page, "request")).robots;
+      assert.deepEqual(
+        goal.any_of.map(({ x, y, bias }) => [x, y, bias]),
+        [
+          [5.5, 2.5, undefined],
+          [1.5, 0.5, 0.25],
+        ],
+      );
+      assert.ok(Math.abs(goal.any_of[1].theta - Math.PI / 2) < 1e-5);
+      const { plans } = await pressPlan(page);
+      assert.equal(plans[0].visits[0].choice, 1); // the nearer one
+      await pose.getByLabel("Bias").fill("-1");
+      await page.waitForSelector("#goals-list .poses-list li .field-error");
+      await page.getByRole("button", { name: "Remove: pose 2 of goal 1" }).click();
+      assert.deepEqual((await hook(page, "request")).robots, HALL.robots);
+    },
+    { allowed: /status of 422/ },
+  );
+});
+
 test("a fault of a goal is shown at its field", async () => {
   await onPage(
     async (page) => {

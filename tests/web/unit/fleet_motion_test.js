@@ -86,3 +86,21 @@ test("a curve that cannot be computed is a problem that can be tried again", asy
   await settled();
   assert.equal(fleet.least.gap, 3.5);
 });
+
+test("gaps beyond vicinities count what robots keep free", async () => {
+  const session = new FakeSession();
+  const robots = REQUEST.robots.map((robot, at) => ({ ...robot, vicinity: [9, 0.125, undefined][at] }));
+  session.scene = readScene({ ...REQUEST, robot_defaults: { radius: 0.25, vicinity: 0.25 }, robots });
+  const fleet = new FleetMotion(session, async (motions) => clearanceOf(motions));
+  session.adopt({ plans: [{ robot: "mover", cost: 3, actions: ACTIONS }] });
+  await settled();
+  assert.deepEqual(fleet.least, { t: 3, gap: 0.5, ids: ["mover", "stayer"] });
+  fleet.beyondVicinity = true;
+  assert.equal(fleet.least, null);
+  await settled();
+  assert.deepEqual(fleet.least, { t: 3, gap: 0.125, ids: ["mover", "stayer"] });
+  assert.deepEqual(fleet.nearestAt(3), { ids: ["mover", "stayer"], gap: 0.125 });
+  assert.equal(fleet.byId.get("mover").radius, 0.25);
+  const others = readTracks(session.scene, { plans: [] });
+  assert.deepEqual(fleet.nearestAt(3, others), { ids: ["mover", "stayer"], gap: 3.125 });
+});

@@ -1,12 +1,12 @@
-// The threshold for gaps: the timeline marks when two robots are nearer, and a button leads from one such time to the
-// next.
+// What the timeline says of gaps: whether they are between disks or beyond vicinities, and a threshold, below which they
+// are marked, and a button leads from one to the next.
 
 import { spellsBelow } from "../model/clearance.js";
 import { byId, setText } from "../ui/dom.js";
 import { count } from "../ui/format.js";
 
 /** `fleet`: see FleetMotion; `chart`: see TimelineChart; `show(ids, t)` shows a moment of two robots. */
-export function watchGapThreshold(session, fleet, chart, show) {
+export function watchGaps(session, fleet, chart, show) {
   const input = byId("gap-threshold");
   const next = byId("gap-next");
   let spells = [];
@@ -19,6 +19,14 @@ export function watchGapThreshold(session, fleet, chart, show) {
     next.disabled = spells.length === 0;
     setText(next, spells.length === 0 ? "never" : count(spells.length, "time"));
   };
+  const vicinity = byId("gap-vicinity");
+  const showVicinity = () => {
+    const keeps = session.scene.robots.some((robot) => robot.vicinity > 0);
+    vicinity.parentElement.hidden = !keeps;
+    fleet.beyondVicinity = keeps && vicinity.checked;
+  };
+  vicinity.addEventListener("change", showVicinity);
+  session.on("request", showVicinity);
   input.addEventListener("input", refresh);
   fleet.onCurve(refresh);
   next.addEventListener("click", () => {
