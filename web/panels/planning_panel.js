@@ -6,6 +6,7 @@ import { revealProblem } from "./problem_card.js";
 import { summarize } from "./summary.js";
 
 const CLOCK_MS = 100;
+const QUICK_MS = 400; // planning that ends sooner shows no progress, which would only move what is below it
 const WIDTH = 320;
 const HEIGHT = 44;
 const EDGE = 3;
@@ -79,6 +80,7 @@ export class PlanningStatus {
   #curve = byId("cost-curve");
   /** @type {number | null} */
   #timer = null;
+  #reveal = 0; // the timer that shows the progress
 
   constructor(session) {
     this.#session = session;
@@ -92,7 +94,7 @@ export class PlanningStatus {
   #begin() {
     this.#since = performance.now();
     const { budget } = this.#session.planning;
-    this.#elapsed.hidden = this.#box.hidden = false;
+    this.#reveal = setTimeout(() => (this.#elapsed.hidden = this.#box.hidden = false), QUICK_MS);
     setText(this.#soFar, "");
     this.#curve.hidden = true;
     this.#bar.hidden = budget === null;
@@ -119,6 +121,7 @@ export class PlanningStatus {
   }
 
   #end() {
+    clearTimeout(this.#reveal);
     clearInterval(this.#timer ?? undefined);
     this.#timer = null;
     this.#elapsed.hidden = this.#box.hidden = true;

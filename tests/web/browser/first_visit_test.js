@@ -49,6 +49,29 @@ test("with reduced motion, a first visit shows the plan at rest", async () => {
   );
 });
 
+for (const [kind, viewport] of [
+  ["desktop", { width: 1440, height: 900 }],
+  ["phone", { width: 390, height: 844 }],
+]) {
+  test(`little moves while the page opens, ${kind}`, async () => {
+    await onFirstVisit(
+      async (page) => {
+        const shifts = await page.evaluate(async () => {
+          const entries = [];
+          const observer = new PerformanceObserver((list) => entries.push(...list.getEntries()));
+          observer.observe({ type: "layout-shift", buffered: true });
+          for (let frame = 0; frame < 10; frame += 1) await new Promise(requestAnimationFrame);
+          observer.disconnect();
+          return entries.map(({ value, sources }) => [value, sources.map(({ node }) => node?.outerHTML)]);
+        });
+        const sum = shifts.reduce((total, [value]) => total + value, 0);
+        assert.ok(sum < 0.1, `${sum}: ${JSON.stringify(shifts).slice(0, 1000)}`); // "good" of Web Vitals
+      },
+      { hash: "#crossing", options: { viewport } },
+    );
+  });
+}
+
 test("an address says what a first visit shows", async () => {
   await onFirstVisit(
     async (page) => {
