@@ -177,13 +177,15 @@ std::vector<core::UnavoidableCollision> unavoidable_of(const std::vector<Unavoid
 
 namespace {
 
-RobotPlan plan_of(const core::RobotPlan& plan, const Frame& frame) {
+/// The places where idle robots end are no goals of the user's.
+RobotPlan plan_of(const core::RobotPlan& plan, std::size_t goals, const Frame& frame) {
   RobotPlan made;
   made.robot = plan.robot;
   made.cost = plan.cost;
   made.lower_bound = plan.lower_bound;
   made.estimated_cost = plan.estimated_cost;
   for (const core::Visit& visit : plan.estimated_visits) {
+    if (visit.goal >= goals) continue;
     made.estimated_visits.push_back({visit.goal, visit.t_arrive});
   }
   made.stuck = plan.is_stuck;
@@ -191,6 +193,7 @@ RobotPlan plan_of(const core::RobotPlan& plan, const Frame& frame) {
   made.actions.reserve(plan.actions.size());
   for (const core::Action& action : plan.actions) made.actions.push_back(frame.from_core(action));
   for (const core::Visit& visit : plan.visits) {
+    if (visit.goal >= goals) continue;
     const bool leaves = visit.t_leave < core::kForever;
     made.visits.push_back({visit.goal, visit.t_arrive, leaves ? std::optional(visit.t_leave) : std::nullopt});
   }
@@ -199,9 +202,12 @@ RobotPlan plan_of(const core::RobotPlan& plan, const Frame& frame) {
 
 }  // namespace
 
-Plan plan_of(const core::Plan& plan, const Frame& frame) {
+Plan plan_of(const core::Plan& plan, const Problem& problem) {
+  const Frame frame(problem.map);
   Plan made;
-  for (const core::RobotPlan& robot : plan.plans) made.plans.push_back(plan_of(robot, frame));
+  for (const core::RobotPlan& robot : plan.plans) {
+    made.plans.push_back(plan_of(robot, problem.robots[robot.robot].goals.size(), frame));
+  }
   for (const core::Unplanned& robot : plan.unplanned) {
     made.unplanned.push_back({robot.robot,
                               static_cast<Unplanned::Reason>(robot.reason),

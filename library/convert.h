@@ -50,7 +50,7 @@ core::RobotPlan plan_of(const RobotPlan& plan, const Frame& frame);
 std::vector<core::UnavoidableCollision> unavoidable_of(const std::vector<UnavoidableCollision>& collisions);
 
 /// Converts a plan, except whether it is verified and how long it took.
-Plan plan_of(const core::Plan& plan, const Frame& frame);
+Plan plan_of(const core::Plan& plan, const Problem& problem);
 Verification verification_of(core::VerifyReport report);
 
 }  // namespace fleetplan::library

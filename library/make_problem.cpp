@@ -162,6 +162,10 @@ ReadFleet read_fleet(const Problem& problem) {
       made.previous =
           read_actions(*robot.previous, made, robot.committed.size(), frame, place + ".previous", faults);
     }
+    if (robot.idle == Robot::Idle::yield) made.let_yield();
+    if (robot.idle == Robot::Idle::come_back && !made.goal) {
+      made.goal = core::Goal{made.committed_end().position, made.committed_end().theta};
+    }
   }
   for (std::size_t k = 0; k < problem.obstacles.size(); ++k) {
     check_obstacle(problem.obstacles[k], item("obstacles", k), faults);

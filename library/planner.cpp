@@ -82,7 +82,7 @@ Plan plan(const Problem& problem, const Options& options, const Control& control
   const core::StopCondition stop(end_of(options.time_budget, begin), control.stop);
   const Clock::time_point started = Clock::now();
   const core::Plan found = planned(*made.problem, core_options, stop, control);
-  Plan plan = library::plan_of(found, library::Frame(problem.map));
+  Plan plan = library::plan_of(found, problem);
   plan.objective_value = core::objective_value(found, made.problem->robots(), core_options.objective);
   plan.search.seconds = std::chrono::duration<double>(Clock::now() - started).count();
   if (!found.unavoidable_known) return plan;

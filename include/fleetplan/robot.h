@@ -28,14 +28,20 @@ struct Goal {
 /// translation and rotation begins and ends at rest. Touching is allowed, overlapping is not. limits.h has
 /// the ranges.
 struct Robot {
+  /// What it does without goals, and once it has served its last one.
+  enum class Idle {
+    stay,       // stays where it is; others keep clear of it
+    yield,      // makes way if another robot needs the place, and ends anywhere
+    come_back,  // makes way, and comes back
+  };
+
   std::string id;              // for your own use; may be empty, need not be unique
   double radius = 0.0;         // metres, > 0
   double linear_speed = 0.0;   // metres per second, > 0
   double angular_speed = 0.0;  // radians per second, > 0
   Pose start;                  // pose at t = 0
-  /// The goals, visited in this order. The robot stays at the last one. Without goals it is parked, and never
-  /// moves.
-  std::vector<Goal> goals;
+  std::vector<Goal> goals;     // visited in this order
+  Idle idle = Idle::stay;
 
   /// The actions that the robot executes whatever is planned: contiguous from t = 0 in `start`, none faster
   /// than the robot, and the last one to rest. The plan begins with these actions. Gaps of up to 5e-7 are

@@ -42,6 +42,50 @@ TEST(PublicPlan, IsTheSameAtAnyOrigin) {
   EXPECT_NEAR(end.y, -499.5, 1e-9);
 }
 
+/// A robot without goals stands in the corridor beside the passing bay, and another one has to pass.
+Problem one_in_the_way(Robot::Idle idle) {
+  Problem problem = corridor_swap();
+  problem.robots[1].start = {5.5, 0.5, 0.0};
+  problem.robots[1].goals.clear();
+  problem.robots[1].idle = idle;
+  return problem;
+}
+
+TEST(PublicPlan, LeavesRobotsWithoutGoalsInTheWayUnlessTheyMakeWay) {
+  const Plan plan = fleetplan::plan(one_in_the_way(Robot::Idle::stay));
+  ASSERT_EQ(plan.unplanned.size(), 1U);
+  EXPECT_EQ(plan.unplanned[0].robot, 0U);
+  EXPECT_EQ(plan.unplanned[0].blocked_by, std::vector<std::size_t>{1});
+}
+
+TEST(PublicPlan, LetsIdleRobotsMakeWayAndEndAnywhereOrComeBack) {
+  for (const Robot::Idle idle : {Robot::Idle::yield, Robot::Idle::come_back}) {
+    const Problem problem = one_in_the_way(idle);
+    const Plan plan = fleetplan::plan(problem);
+    ASSERT_EQ(plan.status, Status::solved);
+    EXPECT_TRUE(plan.verified);
+    EXPECT_TRUE(verify(problem, plan).valid());
+    ASSERT_FALSE(plan.plans[1].actions.empty());
+    const Pose end = plan.plans[1].actions.back().to;
+    EXPECT_EQ(std::hypot(end.x - 5.5, end.y - 0.5) < 1e-9, idle == Robot::Idle::come_back);
+    EXPECT_EQ(plan.plans[0].visits.size(), 1U);
+    EXPECT_TRUE(plan.plans[1].visits.empty());
+  }
+}
+
+TEST(PublicPlan, MovesIdleRobotsThatHaveServedTheirGoals) {
+  Problem problem = corridor_swap();
+  problem.robots[1].start = {6.5, 0.5, 0.0};
+  problem.robots[1].goals = {{5.5, 0.5, {}, 2.0}};
+  problem.robots[1].idle = Robot::Idle::yield;
+  const Plan plan = fleetplan::plan(problem);
+  ASSERT_EQ(plan.status, Status::solved);
+  EXPECT_TRUE(verify(problem, plan).valid());
+  ASSERT_EQ(plan.plans[1].visits.size(), 1U);
+  EXPECT_LT(plan.plans[1].visits[0].t_arrive, 3.0);
+  EXPECT_GT(std::abs(plan.plans[1].actions.back().to.x - 5.5), 0.1);
+}
+
 /// Robots of the corridor need 1 s and half a metre to start, and 2 s and a metre to stop.
 Problem heavy_corridor() {
   Problem problem = corridor_swap();
