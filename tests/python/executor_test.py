@@ -250,6 +250,15 @@ class ByHand(unittest.TestCase):
         executor.report(Report("b", pose(1.0)), 1.0)
         self.assertEqual(executor.served, [])
 
+    def test_robots_without_goals_that_make_way_have_nothing_to_serve_others_do_not_count(self):
+        request, answer = planned({"stays": [], "yields": actions(("translate", 2.0)), "returns": [], "lost": []})
+        for robot in request["robots"]:
+            robot["idle"] = {"stays": "stay", "yields": "yield", "returns": "return", "lost": "yield"}[robot["id"]]
+        answer["plans"] = [plan for plan in answer["plans"] if plan["robot"] != "lost"]
+        answer["unplanned"].append({"robot": "lost", "reason": "blocked_by_robots"})
+        executor = Executor(request, answer, 0.0)
+        self.assertEqual(executor.served, ["yields", "returns"])
+
 
 class FromPlanToPlan(unittest.TestCase):
     def setUp(self):

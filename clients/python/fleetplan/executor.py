@@ -73,6 +73,7 @@ class _Progress:
     course: Course
     goals: bool  # whether it has any
     arrives: bool  # whether it has served all of them at the end of its actions
+    idle: bool  # whether it has none, and makes way
     margin: float  # metres: its execution margin
     gates: list[_Gate] = field(default_factory=list)
     next_gate: int = 0  # those before are open
@@ -129,9 +130,10 @@ class Executor:
 
     @property
     def served(self) -> list[str]:
-        """Robots that have served all of their goals."""
-        return [robot for robot, progress in self._robots.items()
-                if progress.goals and progress.arrives and progress.place >= progress.course.end - _REACHED]
+        """Robots that have served all of their goals, and those without goals that make way (`idle`), also while they do
+        so."""
+        return [robot for robot, progress in self._robots.items() if progress.idle or
+                progress.goals and progress.arrives and progress.place >= progress.course.end - _REACHED]
 
     @property
     def overran(self) -> list[str]:
@@ -239,8 +241,10 @@ class Executor:
         for robot in request["robots"]:
             plan = plans.get(robot["id"])
             actions = robot.get("committed", []) if plan is None else plan["actions"]
+            has_goals = bool(goals_of(robot))
             self._robots[robot["id"]] = _Progress(
-                _course(request, robot, actions), bool(goals_of(robot)), plan is not None and "ends_at" not in plan,
+                _course(request, robot, actions), has_goals, plan is not None and "ends_at" not in plan,
+                plan is not None and not has_goals and robot.get("idle", "stay") != "stay",
                 _execution_margin(request, robot), counted=begin, stays=robot["id"] in invalid)
         for dependency in dependencies:
             gate, until = dependency["gate"], dependency["until"]

@@ -96,7 +96,7 @@ class FleetLoop(PlanningLoop):
 
     @property
     def idle(self) -> list[str]:
-        """Robots that have served all goals that they were given."""
+        """Robots that have served all goals that they were given, and those that never had any and make way."""
         served = self._executor.served if self._executor is not None else []
         return [robot for robot in served if robot not in self._goals and robot not in self._given]
 

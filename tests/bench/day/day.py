@@ -48,7 +48,7 @@ class Day:
         self.radii = {robot["id"]: robot["radius"] for robot in request["robots"]}
         self.fleet = SimulatedFleet(request, seed=seed, speed=SPEED, stops_per_hour=10.0, mean_stop=5.0,
                                     acceleration=ACCELERATION, noise=0.003)
-        self.tasks = Tasks(warehouse, request, per_hour, seed)
+        self.tasks = Tasks(warehouse, per_hour, seed)
         self.disturbances = Disturbances(rates, seed)
         self.watch = Watch(request)
         self.loop = FleetLoop(client, request, clock=self.fleet.clock, background=False, latency=latency,
@@ -81,6 +81,7 @@ class Day:
             self.run(1.0, offer=False)
 
     def assign(self, offer):
+        """Gives tasks that wait to robots that have nothing to do, as the service assigns them."""
         now, idle = self.fleet.now, self.loop.idle
         for robot in [robot for robot in idle if robot in self.tasks.active]:
             task = self.tasks.finish(robot, now)
@@ -88,12 +89,21 @@ class Day:
             if left:
                 self.lost.append((round(now, 1), robot, left, task.goals))
         if offer:
-            self.tasks.come(now)
-        poses = {robot: self.fleet.pose(robot) for robot in idle}
-        for task in self.tasks.assign(idle, poses, now, self.disturbances.closed_rectangles()):
+            self.tasks.come(now, self.disturbances.closed_rectangles())
+        for task in self.tasks.begin(self.assigned(idle), now):
             task.alone = self.alone(task)
             self.watch.begin(task.robot, task.goals, task.seconds)
             self.loop.give(task.robot, task.goals)
+
+    def assigned(self, idle):
+        """The robots of tasks that wait, by their numbers."""
+        if not self.tasks.waiting or not idle:
+            return {}
+        tasks = [{"id": str(number), "goals": task.goals} for number, task in enumerate(self.tasks.waiting)]
+        robots = [{**robot, "start": self.fleet.pose(robot["id"])} for robot in self.request["robots"]
+                  if robot["id"] in idle]
+        answer = self.client.assign({"map": self.request["map"], "robots": robots}, tasks)
+        return {int(each["task"]): each["robot"] for each in answer["assigned"]}
 
     def step(self):
         before, failed = self.loop.answer, self.loop.failure
@@ -117,7 +127,6 @@ class Day:
         mean = statistics.mean(SPEED)
         lone = {**robot, "start": self.fleet.pose(task.robot), "linear_speed": robot["linear_speed"] * mean,
                 "angular_speed": robot["angular_speed"] * mean, "goals": task.goals}
-        del lone["goal"]
         try:
             answer = self.client.plan({"map": self.request["map"], "robots": [lone],
                                        "options": {"start_overlap": 0.15, "inflation": 0.05}})

@@ -194,8 +194,8 @@ class Disturbances:
 
     def close(self, now, robots, tasks):
         """A part of an aisle, where no robot is or goes."""
-        places = [(x, y) for x, y, _ in robots] + list(tasks.rests.values())
-        places += [(goal["x"], goal["y"]) for task in tasks.active.values() for goal in task.goals]
+        places = [(x, y) for x, y, _ in robots]
+        places += [(goal["x"], goal["y"]) for task in [*tasks.waiting, *tasks.active.values()] for goal in task.goals]
         for _ in range(MOST_TRIES):
             begin, end = self.rng.choice(BLOCKS)
             low, left = aisle_of(self.rng.randrange(AISLES)), self.rng.uniform(begin, end - CLOSED_LENGTH)

@@ -41,51 +41,41 @@ class Task:
 
 
 class Tasks:
-    """Goods are taken from a station to a shelf, or from a shelf to a station. A robot ends beside a shelf, or in a
-    waiting place, where no other one ends."""
+    """Goods are taken from a station to a shelf, or from a shelf to a station. Robots end where they serve the last goal;
+    those that have nothing to do make way."""
 
-    def __init__(self, warehouse, request, per_hour, seed):
+    def __init__(self, warehouse, per_hour, seed):
         self.warehouse, self.rng, self.rate = warehouse, random.Random(seed), per_hour / 3600.0
-        self.rests = {robot["id"]: (robot["start"]["x"], robot["start"]["y"]) for robot in request["robots"]}
         self.next = self.rng.expovariate(self.rate)
         self.offered, self.waiting, self.active, self.done = 0, [], {}, []
 
-    def come(self, now):
+    def come(self, now, closed=()):
+        """Tasks that are offered by now, at places that are not in these rectangles."""
         while self.next <= now:
             self.offered += 1
-            self.waiting.append(self.next)
+            self.waiting.append(self.draw(self.next, closed))
             self.next += self.rng.expovariate(self.rate)
 
-    def assign(self, idle, poses, now, closed=()):
-        """Gives the tasks that wait to the nearest robots that are idle; returns these tasks."""
-        free = [robot for robot in idle if robot not in self.active]
-        begun = []
-        while self.waiting and free:
-            first, last, via = self.draw(closed)
-            robot = min(free, key=lambda name: math.hypot(poses[name]["x"] - first[0], poses[name]["y"] - first[1]))
-            free.remove(robot)
-            goals, seconds = [], []
-            for x, y in via + [last]:
-                planned = 0.0 if (x, y) in self.warehouse.waiting else round(self.rng.uniform(*PLANNED), 1)
-                is_late = self.rng.random() < LATE[0]
-                goals.append({"x": x, "y": y, "service": planned})
-                seconds.append(planned * (self.rng.uniform(*LATE[1]) if is_late else 1.0))
-            task = Task(goals, seconds, self.waiting.pop(0), robot, now)
-            self.rests[robot] = last
-            self.active[robot] = task
-            begun.append(task)
-        return begun
+    def draw(self, offered, closed):
+        shelves = [place for place in self.warehouse.shelves if not is_in(place, closed)]
+        places = [self.rng.choice(self.warehouse.stations), self.rng.choice(shelves)]
+        self.rng.shuffle(places)
+        goals, seconds = [], []
+        for x, y in places:
+            planned = round(self.rng.uniform(*PLANNED), 1)
+            is_late = self.rng.random() < LATE[0]
+            goals.append({"x": x, "y": y, "service": planned})
+            seconds.append(planned * (self.rng.uniform(*LATE[1]) if is_late else 1.0))
+        return Task(goals, seconds, offered)
 
-    def draw(self, closed):
-        """The first goal, the last one, and all before the last one."""
-        def free(places):
-            taken = set(self.rests.values())
-            return self.rng.choice([place for place in places if place not in taken and not is_in(place, closed)])
-        station = self.rng.choice(self.warehouse.stations)
-        shelf = free(self.warehouse.shelves)
-        if self.rng.random() < 0.5:
-            return station, shelf, [station]
-        return shelf, free(self.warehouse.waiting), [shelf, station]
+    def begin(self, assigned, now):
+        """Notes who gets which of the tasks that wait: {their numbers in `waiting`: robot}; returns these tasks."""
+        begun = [self.waiting[number] for number in assigned]
+        for task, robot in zip(begun, assigned.values()):
+            task.robot, task.begin = robot, now
+            self.active[robot] = task
+        self.waiting = [task for number, task in enumerate(self.waiting) if number not in assigned]
+        return begun
 
     def finish(self, robot, now):
         task = self.active.pop(robot)

@@ -62,6 +62,5 @@ def make_request(warehouse, count, seed):
     for k in range(count):
         make = list(MAKES)[k % len(MAKES)]
         (x, y), theta = places[k], rng.uniform(-3.1, 3.1)
-        robots.append({"id": f"{make}-{k:02}", **MAKES[make], "start": {"x": x, "y": y, "theta": theta},
-                       "goal": {"x": x, "y": y}})
+        robots.append({"id": f"{make}-{k:02}", **MAKES[make], "start": {"x": x, "y": y, "theta": theta}, "idle": "yield"})
     return {"map": warehouse.map, "robots": robots}
