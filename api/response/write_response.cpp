@@ -108,12 +108,17 @@ void write_profile(JsonWriter& json, const core::SpeedProfile& profile) {
   json.end_object();
 }
 
-void write_actions(JsonWriter& json, const std::vector<core::Action>& actions, const core::Robot& robot,
-                   const ReceivedRobot& received, const core::Position& origin) {
+bool write_actions(JsonWriter& json, const std::vector<core::Action>& actions, const core::Robot& robot,
+                   const ReceivedRobot& received, const core::Position& origin,
+                   const core::StopCondition* stop) {
   ActionWriter writer(json, robot, received, origin);
   json.key("actions").begin_array();
-  for (std::size_t index = 0; index < actions.size(); ++index) writer.write(actions[index], index);
+  for (std::size_t index = 0; index < actions.size(); ++index) {
+    if (stop != nullptr && stop->met()) return false;
+    writer.write(actions[index], index);
+  }
   json.end_array();
+  return true;
 }
 
 namespace {

@@ -17,6 +17,7 @@
 #include "core/model/problem.h"
 #include "core/model/robot.h"
 #include "core/model/zone.h"
+#include "core/runtime/stop_condition.h"
 #include "core/verify/verify.h"
 
 namespace fleetplan::api {
@@ -52,9 +53,10 @@ std::string write_response(const VerifiedPlan& verified, const std::string& requ
 
 /// Writes the member `actions` of a robot. Committed actions, and previous ones that the plan repeats, have
 /// the numbers received; what follows begins with the position in which they end. `origin` is that of the map
-/// in the world.
-void write_actions(JsonWriter& json, const std::vector<core::Action>& actions, const core::Robot& robot,
-                   const ReceivedRobot& received, const core::Position& origin);
+/// in the world. Returns false, with a part of the text written, if `stop`, which may be null, is met first.
+bool write_actions(JsonWriter& json, const std::vector<core::Action>& actions, const core::Robot& robot,
+                   const ReceivedRobot& received, const core::Position& origin,
+                   const core::StopCondition* stop = nullptr);
 
 /// Writes the member `profile` of an action.
 void write_profile(JsonWriter& json, const core::SpeedProfile& profile);

@@ -154,7 +154,7 @@ std::optional<std::string> write_trace(const core::SimulationTrace& trace, const
     const std::vector<core::Action>& actions = trace.actions[k];
     json.begin_object().member("robot", robot.id);
     json.member("cost", actions.empty() ? 0.0 : actions.back().t_end);
-    write_actions(json, actions, robot, {}, request.frame.origin);
+    if (!write_actions(json, actions, robot, {}, request.frame.origin, &stop)) return std::nullopt;
     json.end_object();
   }
   json.end_array().end_object();

@@ -424,7 +424,7 @@ def costly_requests():
         Costly("250,000 travel times", posted(travel_times(500), "/v1/matrix"), 1.0, 400,
                answered_or_unfinished("seconds")),
         Costly("200,000 tasks", posted(many_tasks(200_000), "/v1/assign"), 1.5, 500,
-               refused("parse_unfinished", "check_unfinished", "memory_exceeded")),
+               refused("invalid_request", "parse_unfinished", "check_unfinished", "memory_exceeded")),
         *(Costly(f"{robots} robots, {poses} poses each", posted(goals_at_one_of_several_poses(robots, poses)), 1.0, 600,
                  planned_or_refused("parse_unfinished", "memory_exceeded"))
           for robots, poses in ((2000, 10), (200, 100))),

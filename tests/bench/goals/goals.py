@@ -92,12 +92,15 @@ def main():
     parser.add_argument("--budget", type=float, default=10.0, help="seconds of a plan (default: 10)")
     parser.add_argument("--mode", choices=["first", "anytime"], default="first")
     parser.add_argument("--iterations", type=int, help="of anytime")
+    parser.add_argument("--grid", action="store_true", help="robots drive in four directions only, as those of TSWAP")
     parser.add_argument("--tswap", metavar="PROGRAM", help="app of github.com/Kei18/tswap, to compare with")
     parser.add_argument("--maps", type=pathlib.Path, nargs="*", default=[], help="of MovingAI, which it finds, too")
     parser.add_argument("--robots", default="20,40,70", help="with interchangeable goals, 100 at most")
     parser.add_argument("--seeds", type=int, default=10, help="of each map and number of robots")
     arguments = parser.parse_args()
     options = {"mode": arguments.mode, "time_budget_ms": 1000.0 * arguments.budget}
+    if arguments.grid:
+        options |= {"any_angle": False, "connectivity": 4}
     if arguments.iterations is not None:
         options["max_iterations"] = arguments.iterations
     with service(arguments.program) as url, Client(url, timeout=arguments.budget + 60.0) as client:
