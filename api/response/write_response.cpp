@@ -111,10 +111,11 @@ void write_profile(JsonWriter& json, const core::SpeedProfile& profile) {
 bool write_actions(JsonWriter& json, const std::vector<core::Action>& actions, const core::Robot& robot,
                    const ReceivedRobot& received, const core::Position& origin,
                    const core::StopCondition* stop) {
+  constexpr std::size_t kActionsAtOnce = 64;  // between two questions
   ActionWriter writer(json, robot, received, origin);
   json.key("actions").begin_array();
   for (std::size_t index = 0; index < actions.size(); ++index) {
-    if (stop != nullptr && stop->met()) return false;
+    if (stop != nullptr && index % kActionsAtOnce == 0 && stop->met()) return false;
     writer.write(actions[index], index);
   }
   json.end_array();
