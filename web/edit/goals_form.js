@@ -27,6 +27,7 @@ const FIELDS = {
   ...POSE,
   service: { label: "Service time", unit: "s" },
   not_before: { label: "Not before", unit: "s" },
+  due: { label: "Due", unit: "s" },
   radius_after: { label: "Radius after", unit: "m" },
 };
 const ASIDE = 3; // radii between the last pose and a new one

@@ -15,6 +15,10 @@ export const ROBOT_NUMBERS = [
   { name: "linear_speed", label: "Speed", unit: "m/s" },
   { name: "angular_speed", label: "Turning", unit: "rad/s" },
 ];
+const OWN_NUMBERS = [
+  { name: "vicinity", label: "Vicinity", unit: "m", usual: 0 },
+  { name: "weight", label: "Weight", unit: "", usual: 1 },
+];
 const POSES = ["start", "goal"];
 const HOW_TO_CHOOSE = "Select a robot here or in the scene.";
 const HOW_TO_ADD = "A request needs at least one robot: add one with the robot tool.";
@@ -25,6 +29,7 @@ export class RobotForm {
   #actions;
   #form = byId("robot-form");
   #id = byId("robot-id");
+  #idle = byId("robot-idle");
   #hasGoal = byId("robot-has-goal");
   #numbers = new Map(); // name -> NumberField
   #poses = new Map(); // "start" or "goal" -> {x, y, theta}, each a NumberField
@@ -37,6 +42,10 @@ export class RobotForm {
     this.#build();
     this.#id.addEventListener("input", () => this.#set("id", this.#id.value));
     this.#id.addEventListener("change", () => session.endGesture());
+    this.#idle.addEventListener("change", () => {
+      this.#set("idle", this.#idle.value || undefined);
+      session.endGesture();
+    });
     this.#hasGoal.addEventListener("change", () => {
       if (this.#hasGoal.checked) actions.addGoal();
       else actions.removeGoal();
@@ -52,7 +61,7 @@ export class RobotForm {
 
   #build() {
     const settle = () => this.#session.endGesture();
-    for (const { name, label, unit } of ROBOT_NUMBERS) {
+    for (const { name, label, unit } of [...ROBOT_NUMBERS, ...OWN_NUMBERS]) {
       const accept = (value) => this.#set(name, value);
       this.#numbers.set(name, new NumberField({ label, unit, accept, settle }));
     }
@@ -95,8 +104,10 @@ export class RobotForm {
     const defaults = this.#session.request?.robot_defaults;
     for (const [name, field] of this.#numbers) {
       field.input.dataset.pointer = `${pointer}/${name}`;
-      field.show(robot[name], { placeholder: String(defaults?.[name] ?? "") });
+      field.show(robot[name], { placeholder: String(defaults?.[name] ?? usualOf(name)) });
     }
+    this.#idle.dataset.pointer = `${pointer}/idle`;
+    this.#idle.value = typeof robot.idle === "string" ? robot.idle : "";
     const goal = lastGoalOf(robot);
     this.#refreshPose("start", robot.start, `${pointer}/start`);
     this.#refreshPose("goal", goal, `${pointer}/${lastGoalPlace(robot)}`);
@@ -117,6 +128,8 @@ export class RobotForm {
     fields.theta.show(degreesOf(theta), { placeholder: otherwise, note });
   }
 }
+
+const usualOf = (name) => OWN_NUMBERS.find((each) => each.name === name)?.usual ?? "";
 
 export function watchRobotPicker(session, choice) {
   const list = byId("edited-robot");

@@ -68,6 +68,7 @@ function readRobots(request) {
       radiiAfter: goalsOf(robot).map((each) => (positive(each?.radius_after) ? each.radius_after : null)),
       committed,
       vicinity: vicinityOf(robot, request.robot_defaults),
+      makesWay: robot.idle === "yield" || robot.idle === "return",
       inertia: inertiaOf(robot, request.robot_defaults),
     });
   });
@@ -106,13 +107,14 @@ export function readScene(request, previous = null) {
 }
 
 /**
- * The track of each robot of the scene, by id: {status, actions, chosen, radii, path, cost, lowerBound, unplanned,
+ * The track of each robot of the scene, by id: {status, actions, chosen, radii, path, cost, lowerBound, late, unplanned,
  * former}. The status is "ready" before there is an answer, then "planned", "parked" (it has no goal and does not move),
  * "unplanned" (it executes its committed actions, if any) or "outdated" (it stands at its start, and its plan, which no
  * longer holds, is the actions in `former`; the path is theirs);
  * `chosen` are the poses that the plan takes of goals with alternatives, by goal, null for the others;
  * `radii` are those that it has later, as [{t, radius}], each from its t on;
- * `lowerBound`, the lower bound of its cost (seconds), is null if the answer lacks it.
+ * `lowerBound`, the lower bound of its cost (seconds), is null if the answer lacks it;
+ * `late` are the goals at which it arrives after they were due: [{goal, seconds}].
  * @param {Scene} scene
  * @param {Answer | null} answer
  * @param {Set<string> | null} outdated the ids of robots whose plans no longer hold
@@ -137,6 +139,7 @@ export function readTracks(scene, answer, outdated = null) {
       path: pathOf(actions),
       cost: plans.get(robot.id)?.cost ?? null,
       lowerBound: plans.get(robot.id)?.lower_bound ?? null,
+      late: lateOf(plans.get(robot.id)),
       unplanned: failures.get(robot.id) ?? null,
       former: [],
     });
@@ -147,7 +150,15 @@ export function readTracks(scene, answer, outdated = null) {
 /** The track of a robot whose plan, if it has one, no longer holds. */
 function outdatedTrack(plan) {
   const former = plan?.actions ?? [];
-  const nothing = { actions: [], chosen: [], radii: [], cost: null, lowerBound: null, unplanned: null };
+  const nothing = {
+    actions: [],
+    chosen: [],
+    radii: [],
+    cost: null,
+    lowerBound: null,
+    late: [],
+    unplanned: null,
+  };
   return { status: plan === undefined ? "ready" : "outdated", ...nothing, path: pathOf(former), former };
 }
 
@@ -155,6 +166,11 @@ function chosenOf({ alternatives }, plan) {
   const visits = Array.isArray(plan?.visits) ? plan.visits : [];
   const choices = new Map(visits.map(({ goal, choice }) => [goal, choice]));
   return alternatives.map((poses, goal) => poses[choices.get(goal)] ?? null);
+}
+
+function lateOf(plan) {
+  const visits = Array.isArray(plan?.visits) ? plan.visits : [];
+  return visits.filter(({ late_by }) => late_by > 0).map(({ goal, late_by }) => ({ goal, seconds: late_by }));
 }
 
 /** The radii that goals change, from the ends of their services. */

@@ -12,7 +12,8 @@
  * @typedef {{x: number, y: number, theta?: number}} GivenPose
  */
 
-/** @typedef {GivenPose & {service?: number, not_before?: number, radius_after?: number}} GivenGoal */
+/** @typedef {GivenPose & {service?: number, not_before?: number, due?: number,
+ * radius_after?: number}} GivenGoal */
 
 /**
  * A disk that nobody controls; it leaves after its motion unless `after` is "stays".
@@ -62,7 +63,8 @@
  * changes?: {rise: number, fall: number}}} Action
  */
 /** @typedef {{rise: number, fall: number, turn: number}} Inertia see profile.js */
-/** @typedef {{goal: number, t_arrive: number | null, t_leave: number | null}} Visit without times if the goal is not reached */
+/** @typedef {{goal: number, t_arrive: number | null, t_leave: number | null, late_by?: number | null}} Visit without
+ * times if the goal is not reached */
 /** @typedef {{robot: string, cost: number, lower_bound?: number, actions: Action[], visits?: Visit[], stuck?: boolean,
  * blocked_by?: string[], blocked_by_total?: number}} Plan */
 /** @typedef {{robot: string, reason: string, detail?: string, blocked_by?: string[],
@@ -161,7 +163,8 @@
  * A robot as it is drawn, at `index` of the request's robots. A goal's theta is null for any heading. `via` are
  * the goals before the last one, null where they are faulty; `radiiAfter` are the radii that goals change, null where
  * they do not; `alternatives` are the poses at one of which each goal is served, none of a goal with one pose, null
- * where they are faulty; `committed` is the path of its committed actions; `vicinity` is what it keeps from others.
+ * where they are faulty; `committed` is the path of its committed actions; `vicinity` is what it keeps from others; `makesWay` says
+ * whether it moves for others while it has nothing to do.
  * @typedef {object} Robot
  * @property {number} index
  * @property {string} id
@@ -174,6 +177,7 @@
  * @property {(number | null)[]} radiiAfter
  * @property {Position[]} committed
  * @property {number} vicinity
+ * @property {boolean} makesWay
  * @property {Inertia} inertia
  */
 
@@ -201,6 +205,7 @@
  * @property {Position[]} path
  * @property {number | null} cost
  * @property {number | null} lowerBound
+ * @property {{goal: number, seconds: number}[]} late
  * @property {Unplanned | null} unplanned
  * @property {Action[]} former
  */

@@ -16,6 +16,7 @@ const MARGIN = { top: 60, side: 12, bottom: 12 }; // pixels around the card: abo
 const COLUMNS = ["From, s", "To, s", "Action"];
 const NO_ACTIONS = {
   parked: "It has no goal and stays at its start.",
+  idle: "It has nothing to do, and is in nobody's way.",
   planned: "It is already at its goal.",
   outdated: "An edit made its plan invalid. Plan again.",
   ready: "It is not part of the plan and stays at its start.",
@@ -111,10 +112,19 @@ export class Inspector {
 
   #body(robot, track) {
     if (track.unplanned) return [this.#whyUnplanned(track.unplanned)];
-    if (track.actions.length === 0) return [element("p", { textContent: NO_ACTIONS[track.status] })];
+    if (track.actions.length === 0) {
+      const isIdle = track.status === "parked" && robot.makesWay;
+      return [element("p", { textContent: NO_ACTIONS[isIdle ? "idle" : track.status] })];
+    }
     const sum = totals(track.actions);
     this.#speeds = new SpeedChart(track.actions);
-    return [costOf(track), sharesOf(sum), this.#table(robot, track.actions), this.#speeds.node];
+    return [
+      costOf(robot, track),
+      ...lateAt(track),
+      sharesOf(sum),
+      this.#table(robot, track.actions),
+      this.#speeds.node,
+    ];
   }
 
   #whyUnplanned({ reason, detail, blocked_by, blocked_by_total }) {
@@ -205,7 +215,7 @@ export class Inspector {
   }
 }
 
-function costOf(track) {
+function costOf(robot, track) {
   const delay = delayOf(track);
   const compared =
     delay === -Infinity
@@ -217,7 +227,15 @@ function costOf(track) {
               : `${seconds(delay)} above its lower bound (${seconds(track.lowerBound)})`,
         });
   const cost = element("b", { textContent: seconds(track.cost) });
-  return element("p", { class: "cost" }, cost, " to the goal", compared);
+  const until = robot.goal === null && robot.makesWay ? " to make way" : " to the goal";
+  return element("p", { class: "cost" }, cost, until, compared);
+}
+
+/** Where it arrives after it was due. */
+function lateAt({ late }) {
+  if (late.length === 0) return [];
+  const places = late.map((each) => `at goal ${each.goal + 1} by ${seconds(each.seconds)}`);
+  return [element("p", { class: "late", textContent: `Late ${places.join(", ")}` })];
 }
 
 /** The shares of moving, turning and waiting, as a bar and in words. */

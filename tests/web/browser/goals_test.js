@@ -87,6 +87,38 @@ test("a goal gets another pose by keys alone, one of both is planned, and a faul
   );
 });
 
+test("a robot in the way is told to make way, and one that is urgent when it is due", async () => {
+  const waiter = { id: "waiter", start: { x: 3.5, y: 2.5 } };
+  const lane = { ...HALL, map: { rows: ["##########", "####.#####", "..........", "##########"] } };
+  const [cart] = HALL.robots;
+  const moved = { ...cart, start: { x: 0.5, y: 1.5 }, goal: { x: 8.5, y: 1.5 } };
+  await onPage(async (page) => {
+    await paste(page, { ...lane, robots: [moved, { ...waiter, start: { x: 3.5, y: 1.5 } }] });
+    await page.click("#tab-edit");
+    await page.selectOption("#edited-robot", "1");
+    await page.selectOption("#robot-idle", "yield");
+    await page.selectOption("#edited-robot", "0");
+    await page.getByLabel("Weight").fill("3");
+    await page.click("#goals summary");
+    await page.locator("#goals-list").getByLabel("Due").fill("2");
+    const { robots } = await hook(page, "request");
+    assert.deepEqual([robots[0].weight, robots[0].goal.due, robots[1].idle], [3, 2, "yield"]);
+    const { status, plans } = await pressPlan(page);
+    assert.equal(status, "solved");
+    assert.ok(plans[1].actions.length > 0, "it makes way");
+    await page.click("#tab-plan");
+    const seconds = plans[0].visits[0].late_by.toFixed(2);
+    await page.waitForFunction(
+      (text) => document.getElementById("inspector").innerText.includes(text),
+      `Late at goal 1 by ${seconds} s`,
+    );
+    await page.click("#tab-edit");
+    await page.selectOption("#edited-robot", "1");
+    await page.selectOption("#robot-idle", "");
+    assert.equal("idle" in (await hook(page, "request")).robots[1], false);
+  });
+});
+
 test("a fault of a goal is shown at its field", async () => {
   await onPage(
     async (page) => {

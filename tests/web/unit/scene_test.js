@@ -55,6 +55,32 @@ test("a robot has another radius after a goal that changes it", () => {
   assert.equal(robotRadiusAt(scene.robots[0], stopped.get("a"), 9), 0.4, "beyond the horizon");
 });
 
+test("a track tells at which goals its robot is late", () => {
+  const scene = readScene(REQUEST);
+  const visits = [
+    { goal: 0, t_arrive: 3, late_by: 0 },
+    { goal: 1, t_arrive: 9, late_by: 2.5 },
+    { goal: 2, t_arrive: 12 },
+    { goal: 3, t_arrive: null, late_by: null },
+  ];
+  const plan = { robot: "amr-1", actions: [], visits };
+  assert.deepEqual(readTracks(scene, { plans: [plan] }).get("amr-1").late, [{ goal: 1, seconds: 2.5 }]);
+  assert.deepEqual(readTracks(scene, null).get("amr-1").late, []);
+});
+
+test("robots that make way are told from those that stay", () => {
+  const robots = ["stay", "yield", "return", undefined].map((idle, at) => ({
+    ...REQUEST.robots[0],
+    id: `amr-${at}`,
+    idle,
+  }));
+  const { robots: read } = readScene({ ...REQUEST, robots });
+  assert.deepEqual(
+    read.map(({ makesWay }) => makesWay),
+    [false, true, true, false],
+  );
+});
+
 test("a goal at one of several poses is the one that the plan has chosen", () => {
   const docks = [
     { x: 10.25, y: -1.25 },
