@@ -158,6 +158,7 @@ test("at 200 % zoom, and in a window of 320 pixels, nothing is cut off", async (
         await page.setViewportSize({ width, height });
         for (const tab of ["plan", "edit", "options", "analyse"]) {
           await openTab(page, tab);
+          await twoFrames(page); // until then, what was hidden may have the layout of the former width
           if (tab === "options") await page.waitForSelector("#option-seed");
           const cut = await page.evaluate(() =>
             [...document.querySelectorAll("button, select, input, summary, p, h2")]
@@ -180,6 +181,9 @@ test("at 200 % zoom, and in a window of 320 pixels, nothing is cut off", async (
     { options: { deviceScaleFactor: 2 } },
   );
 });
+
+const twoFrames = (page) =>
+  page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 
 /** Presses a key until an element that matches has the focus. */
 async function pressUntil(page, key, selector) {
