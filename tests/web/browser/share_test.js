@@ -88,8 +88,11 @@ async function lookThrough(video) {
   const middle = Math.floor(videoWidth / 2);
   const halves = [0, middle].map((left) => ({ left, pictures: new Set() }));
   for (const share of [0, 0.5, 0.99]) {
+    // A video may have sought before its picture is there to be drawn.
+    const presented = new Promise((done) => video.requestVideoFrameCallback(done));
     video.currentTime = share * duration;
     await new Promise((done) => video.addEventListener("seeked", done, { once: true }));
+    await Promise.race([presented, new Promise((done) => setTimeout(done, 1000))]); // if it is there already
     context.drawImage(video, 0, 0);
     for (const { left, pictures } of halves) {
       const { data } = context.getImageData(left, 0, middle, videoHeight);
