@@ -14,7 +14,7 @@ import {
 } from "../model/edit_goals.js";
 import { alternativesOf, goalsOf } from "../model/goals.js";
 import { robotsOf } from "../model/listed.js";
-import { byId, element } from "../ui/dom.js";
+import { byId, element, setCount } from "../ui/dom.js";
 import { NumberField } from "../ui/number_field.js";
 
 const POSE = {
@@ -167,16 +167,6 @@ export class GoalsForm {
       if (!made.isConnected) byId("append-goal").focus(); // the focus would be lost
     });
     return made;
-  }
-}
-
-/** Removes rows {element} from the end of a list, or makes them, until there are so many. */
-function setCount(list, rows, count, make) {
-  while (rows.length > count) rows.pop().element.remove();
-  while (rows.length < count) {
-    const row = make(rows.length);
-    rows.push(row);
-    list.append(row.element);
   }
 }
 

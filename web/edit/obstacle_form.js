@@ -12,7 +12,7 @@ import {
 import { obstaclesOf } from "../model/listed.js";
 import { snapPoint } from "../model/placement.js";
 import { chosenIn, showChoices } from "../ui/choices.js";
-import { byId, element } from "../ui/dom.js";
+import { byId, element, setCount } from "../ui/dom.js";
 import { NumberField } from "../ui/number_field.js";
 
 const USUAL_RADIUS = 0.3; // metres: a person
@@ -107,12 +107,7 @@ export class ObstacleForm {
   }
 
   #showMotion(motion, pointer) {
-    while (this.#rows.length > motion.length) this.#rows.pop().element.remove();
-    while (this.#rows.length < motion.length) {
-      const row = this.#row(this.#rows.length);
-      this.#rows.push(row);
-      this.#entries.append(row.element);
-    }
+    setCount(this.#entries, this.#rows, motion.length, (number) => this.#row(number));
     motion.forEach((entry, number) => {
       for (const [name, field] of Object.entries(this.#rows[number].fields)) {
         field.input.dataset.pointer = `${pointer}/${number}/${name}`;

@@ -57,6 +57,16 @@ export function scrollWithin(box, part, covered = 0) {
   else if (inner.bottom > outer.bottom) box.scrollTop += inner.bottom - outer.bottom;
 }
 
+/** Removes rows {element} from the end of a list, or makes them, until there are so many. */
+export function setCount(list, rows, count, make) {
+  while (rows.length > count) rows.pop().element.remove();
+  while (rows.length < count) {
+    const row = make(rows.length);
+    rows.push(row);
+    list.append(row.element);
+  }
+}
+
 export function makeClosable(menu) {
   addEventListener("pointerdown", (event) => {
     if (menu.open && !menu.contains(event.target)) menu.open = false;

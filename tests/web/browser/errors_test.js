@@ -6,7 +6,7 @@ import { test } from "node:test";
 
 import { choose, pause, pressPlan } from "../support/browser.js";
 import { drop } from "../support/map_files.js";
-import { hook, pagesFor, paste, REFUSED } from "../support/on_page.js";
+import { hook, pagesFor, paste, REFUSED, twoFrames } from "../support/on_page.js";
 
 const onPage = pagesFor();
 
@@ -181,9 +181,6 @@ test("at 200 % zoom, and in a window of 320 pixels, nothing is cut off", async (
     { options: { deviceScaleFactor: 2 } },
   );
 });
-
-const twoFrames = (page) =>
-  page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 
 /** Presses a key until an element that matches has the focus. */
 async function pressUntil(page, key, selector) {

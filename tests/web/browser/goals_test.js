@@ -14,6 +14,14 @@ const HALL = {
   robots: [{ id: "cart", start: { x: 0.5, y: 2.5 }, goal: { x: 5.5, y: 2.5 } }],
 };
 
+/** Opens the hall and the form of the goals of its robot. */
+async function openGoals(page) {
+  await paste(page, HALL);
+  await page.click("#tab-edit");
+  await page.selectOption("#edited-robot", "0");
+  await page.click("#goals summary");
+}
+
 test("a goal is added, placed, served and moved earlier by keys alone, and the plan visits it", async () => {
   await onPage(async (page) => {
     await paste(page, HALL);
@@ -49,10 +57,7 @@ test("a goal is added, placed, served and moved earlier by keys alone, and the p
 test("a goal gets another pose by keys alone, one of both is planned, and a fault is shown at its field", async () => {
   await onPage(
     async (page) => {
-      await paste(page, HALL);
-      await page.click("#tab-edit");
-      await page.selectOption("#edited-robot", "0");
-      await page.click("#goals summary");
+      await openGoals(page);
       await page.getByRole("button", { name: "Or another pose: goal 1" }).focus();
       await page.keyboard.press("Enter");
       assert.equal(await page.isVisible("#robot-goal-numbers"), false);
@@ -122,10 +127,7 @@ test("a robot in the way is told to make way, and one that is urgent when it is 
 test("a fault of a goal is shown at its field", async () => {
   await onPage(
     async (page) => {
-      await paste(page, HALL);
-      await page.click("#tab-edit");
-      await page.selectOption("#edited-robot", "0");
-      await page.click("#goals summary");
+      await openGoals(page);
       await page.locator("#goals-list").getByLabel("Service").fill("-1");
       await page.waitForSelector("#goals-list .field-error");
     },

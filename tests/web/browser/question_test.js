@@ -6,7 +6,7 @@ import { test } from "node:test";
 
 import { choose, planAndPause, pressPlan, seek } from "../support/browser.js";
 import { expectedGap as gapAt } from "../support/expected_pose.js";
-import { pagesFor, paste } from "../support/on_page.js";
+import { pagesFor, paste, twoFrames } from "../support/on_page.js";
 
 const NEAR = 1e-9; // metres
 const DANGER = "198,47,38,255"; // --scene-danger where it is light
@@ -29,8 +29,6 @@ const hook = (page, name) => page.evaluate((member) => window.fleetplan[member],
 const isSelected = (page, id) => page.waitForFunction((robot) => window.fleetplan.selected === robot, id);
 const hasTime = (page, time, slack = 1e-9) =>
   page.waitForFunction(([t, near]) => Math.abs(window.fleetplan.time - t) <= near, [time, slack]);
-const twoFrames = (page) =>
-  page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 
 /** Where a moment of the whole plan is in a row of the timeline, pixels in its box. */
 async function placeOf(page, row, share) {

@@ -105,12 +105,16 @@ export function themeColour(page, name) {
   }, name);
 }
 
+/** Waits until what has changed is laid out and painted. */
+export const twoFrames = (page) =>
+  page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+
 /**
  * What is painted on a canvas around each of these places ({x, y}, CSS pixels): the RGBA bytes of the pixels that are at
  * most `reach` CSS pixels away in x and in y, as far as the canvas reaches. The next frames are waited for.
  */
 async function painted(page, id, places, reach) {
-  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  await twoFrames(page);
   const texts = await page.evaluate(
     ({ id, places, reach }) => {
       const canvas = document.getElementById(id);
