@@ -91,9 +91,7 @@ export class FleetSection {
     this.#refresh();
     const { rounds, holds } = this.#run;
     const last = rounds.at(-1);
-    const unplanned = last?.unplanned ?? 0;
-    const stuck = unplanned > 0 ? `, ${count(unplanned, "robot")} without a plan` : "";
-    setText(this.#status, last === undefined ? "" : `${count(rounds.length, "round")}${stuck}`);
+    setText(this.#status, last === undefined ? "" : roundsInWords(rounds.length, last));
     this.#holds.replaceChildren(
       ...holds.map(({ robot, left }) => {
         const release = button("Release", () => this.#run.hold(robot, 0), { class: "quiet" });
@@ -113,4 +111,14 @@ export class FleetSection {
       lineChart("Planning time per round", latencies, milliseconds),
     );
   }
+}
+
+/** How many rounds have ended, and the robots of the last one that do not get on. */
+function roundsInWords(rounds, { unplanned, stuck }) {
+  const parts = [
+    count(rounds, "round"),
+    unplanned > 0 ? `${count(unplanned, "robot")} without a plan` : null,
+    stuck > 0 ? `${count(stuck, "robot")} stuck` : null,
+  ];
+  return parts.filter((part) => part !== null).join(", ");
 }

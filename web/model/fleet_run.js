@@ -6,6 +6,7 @@
 import { goalsOf, lastGoalOf } from "./goals.js";
 import { robotsOf } from "./listed.js";
 import { Signals } from "./signals.js";
+import { stuckOf } from "./stuck.js";
 
 const SERVICE = 2; // seconds at the start before a robot goes back
 const BUDGET_SHARE = 0.9; // of a round
@@ -81,7 +82,8 @@ export class FleetRun {
 
   running = false;
   period = 2; // seconds of a round that is not ended by a hold
-  /** @type {{length: number, reached: number, latency: number, unplanned: number}[]} */
+  /** @type {{length: number, reached: number, latency: number, unplanned: number,
+   * stuck: number}[]} */
   rounds = []; // that have ended
 
   /** `now()` is the wall clock in milliseconds. */
@@ -181,7 +183,13 @@ export class FleetRun {
     const answer = await this.#service.plan(JSON.stringify(advanced), signal, NO_LISTENER);
     const latency = this.#now() - asked;
     const reached = reachedBy(plans, at);
-    const figures = { length: at, reached, latency, unplanned: answer.unplanned.length };
+    const figures = {
+      length: at,
+      reached,
+      latency,
+      unplanned: answer.unplanned.length,
+      stuck: stuckOf(answer).length,
+    };
     return { request: advanced, answer, figures };
   }
 

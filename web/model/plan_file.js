@@ -37,6 +37,12 @@ export function readDocument(document) {
   return { request: isRequest ? request : null, answer: completed(answer) };
 }
 
+/** Whether a parsed JSON document is a request of POST /v1/advance: a request, its plans and what robots report. */
+export function isOfAdvance(document) {
+  const { request, plans, ...rest } = document ?? {};
+  return request !== null && typeof request === "object" && isList(plans) && !("map" in rest);
+}
+
 /** Whether every robot of the answer is one of the request. */
 export function belongsTo(answer, request) {
   const ids = new Set(robotsOf(request).map((robot) => robot?.id));
@@ -88,18 +94,23 @@ export const OF_ANSWERS = {
   warnings: (value) => isList(value) && value.every((each) => isText(each?.detail ?? each)),
   tolerance: isNumber, // of the check
 };
+const OF_BLOCKED = {
+  blocked_by: isOptional((value) => isList(value) && value.every(isText)),
+  blocked_by_total: isOptional(isNumber),
+};
 const OF_UNPLANNED = {
   robot: isText,
   reason: isOptional(isText),
   detail: isOptional(isText),
-  blocked_by: isOptional((value) => isList(value) && value.every(isText)),
-  blocked_by_total: isOptional(isNumber),
+  ...OF_BLOCKED,
   actions: isOptional(isList),
 };
 const OF_PLANS = {
   robot: isText,
   cost: isOptional(isNumber),
   lower_bound: isOptional(isNumber),
+  stuck: isOptional(isFlag),
+  ...OF_BLOCKED,
   actions: isList,
 };
 const OF_ACTIONS = {

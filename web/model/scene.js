@@ -8,6 +8,7 @@ import { robotsOf } from "./listed.js";
 import { radiusAt } from "./motion.js";
 import { readObstacles } from "./moving_obstacles.js";
 import { inertiaOf, withChanges } from "./profile.js";
+import { stuckOf } from "./stuck.js";
 import { doingAt, pathOf, poseAt } from "./timeline.js";
 import { readZones } from "./zones.js";
 
@@ -108,13 +109,14 @@ export function readScene(request, previous = null) {
 
 /**
  * The track of each robot of the scene, by id: {status, actions, chosen, radii, path, cost, lowerBound, late, unplanned,
- * former}. The status is "ready" before there is an answer, then "planned", "parked" (it has no goal and does not move),
+ * stuck, former}. The status is "ready" before there is an answer, then "planned", "parked" (it has no goal and does not move),
  * "unplanned" (it executes its committed actions, if any) or "outdated" (it stands at its start, and its plan, which no
  * longer holds, is the actions in `former`; the path is theirs);
  * `chosen` are the poses that the plan takes of goals with alternatives, by goal, null for the others;
  * `radii` are those that it has later, as [{t, radius}], each from its t on;
  * `lowerBound`, the lower bound of its cost (seconds), is null if the answer lacks it;
- * `late` are the goals at which it arrives after they were due: [{goal, seconds}].
+ * `late` are the goals at which it arrives after they were due: [{goal, seconds}];
+ * `stuck` says by whom, if it gains nothing within the horizon, see stuckOf.
  * @param {Scene} scene
  * @param {Answer | null} answer
  * @param {Set<string> | null} outdated the ids of robots whose plans no longer hold
@@ -123,6 +125,7 @@ export function readScene(request, previous = null) {
 export function readTracks(scene, answer, outdated = null) {
   const plans = new Map((answer?.plans ?? []).map((plan) => [plan.robot, plan]));
   const failures = new Map((answer?.unplanned ?? []).map((entry) => [entry.robot, entry]));
+  const stuck = new Map(stuckOf(answer).map((entry) => [entry.robot, entry]));
   const tracks = new Map();
   for (const robot of scene.robots) {
     if (outdated?.has(robot.id)) {
@@ -141,6 +144,7 @@ export function readTracks(scene, answer, outdated = null) {
       lowerBound: plans.get(robot.id)?.lower_bound ?? null,
       late: lateOf(plans.get(robot.id)),
       unplanned: failures.get(robot.id) ?? null,
+      stuck: stuck.get(robot.id) ?? null,
       former: [],
     });
   }
@@ -158,6 +162,7 @@ function outdatedTrack(plan) {
     lowerBound: null,
     late: [],
     unplanned: null,
+    stuck: null,
   };
   return { status: plan === undefined ? "ready" : "outdated", ...nothing, path: pathOf(former), former };
 }

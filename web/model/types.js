@@ -67,8 +67,8 @@
  * times if the goal is not reached */
 /** @typedef {{robot: string, cost: number, lower_bound?: number, actions: Action[], visits?: Visit[], stuck?: boolean,
  * blocked_by?: string[], blocked_by_total?: number}} Plan */
-/** @typedef {{robot: string, reason: string, detail?: string, blocked_by?: string[],
- * blocked_by_total?: number, actions?: Action[]}} Unplanned */
+/** @typedef {{robot: string, reason: string, detail?: string, blocked_by?: string[], blocked_by_total?: number}} Blocked */
+/** @typedef {Blocked & {actions?: Action[]}} Unplanned */
 
 /**
  * The answer of POST /v1/plan. One from a file may lack what is optional here.
@@ -207,6 +207,7 @@
  * @property {number | null} lowerBound
  * @property {{goal: number, seconds: number}[]} late
  * @property {Unplanned | null} unplanned
+ * @property {Blocked | null} stuck
  * @property {Action[]} former
  */
 

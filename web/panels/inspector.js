@@ -3,10 +3,11 @@
 
 import { delayOf } from "../model/gantt.js";
 import { actionInWords, totals, causeOfWait } from "../model/itinerary.js";
+import { blockersOf } from "../model/stuck.js";
 import { actionIndexAt } from "../model/timeline.js";
 import { byId, element, icon, scrollWithin, setText } from "../ui/dom.js";
 import { seconds } from "../ui/format.js";
-import { andMore, robotChip } from "./robot_list.js";
+import { blockedBy, robotChip } from "./robot_list.js";
 import { SpeedChart } from "./speed_chart.js";
 import { REASONS } from "./unplanned_card.js";
 
@@ -21,6 +22,8 @@ const NO_ACTIONS = {
   outdated: "An edit made its plan invalid. Plan again.",
   ready: "It is not part of the plan and stays at its start.",
 };
+
+const STUCK = "It comes no nearer to its goals within the planning horizon.";
 
 const CORNERS = ["top-right", "bottom-right", "bottom-left"]; // in order of preference
 
@@ -89,9 +92,10 @@ export class Inspector {
 
   /** What the card should not hide: the robot, its path and goal, and its blockers. */
   #placesOf(robot, track) {
-    const blockers = track.unplanned?.blocked_by ?? [];
     const goal = robot.goal === null ? [] : [robot.goal];
-    const now = [robot.id, ...blockers].map((id) => this.#session.poseOf(id)).filter((pose) => pose !== null);
+    const now = [robot.id, ...blockersOf(track)]
+      .map((id) => this.#session.poseOf(id))
+      .filter((pose) => pose !== null);
     return [...now, ...goal, ...track.path];
   }
 
@@ -111,14 +115,17 @@ export class Inspector {
   }
 
   #body(robot, track) {
-    if (track.unplanned) return [this.#whyUnplanned(track.unplanned)];
+    if (track.unplanned) return [this.#why(track.unplanned)];
+    const stuck = track.stuck === null ? [] : [this.#why({ ...track.stuck, detail: STUCK })];
     if (track.actions.length === 0) {
+      if (stuck.length > 0) return stuck;
       const isIdle = track.status === "parked" && robot.makesWay;
       return [element("p", { textContent: NO_ACTIONS[isIdle ? "idle" : track.status] })];
     }
     const sum = totals(track.actions);
     this.#speeds = new SpeedChart(track.actions);
     return [
+      ...stuck,
       costOf(robot, track),
       ...lateAt(track),
       sharesOf(sum),
@@ -127,18 +134,15 @@ export class Inspector {
     ];
   }
 
-  #whyUnplanned({ reason, detail, blocked_by, blocked_by_total }) {
-    const parts = [
+  /** Why it has no plan, or comes no nearer to its goals, and who is in its way. */
+  #why({ reason, detail, ...entry }) {
+    return element(
+      "div",
+      { class: "why" },
       element("p", { class: "reason", textContent: REASONS[reason] ?? reason }),
       detail ? element("p", { textContent: detail }) : null,
-    ];
-    if (blocked_by?.length > 0) {
-      const chips = blocked_by.map((id) => robotChip(this.#session, id));
-      parts.push(
-        element("div", { class: "chips" }, "Blocked by:", ...chips, andMore(blocked_by, blocked_by_total)),
-      );
-    }
-    return element("div", { class: "why" }, ...parts);
+      blockedBy(this.#session, entry),
+    );
   }
 
   #table(robot, actions) {
@@ -227,8 +231,13 @@ function costOf(robot, track) {
               : `${seconds(delay)} above its lower bound (${seconds(track.lowerBound)})`,
         });
   const cost = element("b", { textContent: seconds(track.cost) });
-  const until = robot.goal === null && robot.makesWay ? " to make way" : " to the goal";
-  return element("p", { class: "cost" }, cost, until, compared);
+  return element("p", { class: "cost" }, cost, untilWhen(robot, track), compared);
+}
+
+/** What a robot's cost lasts until, in words. */
+function untilWhen({ goal, makesWay }, { stuck }) {
+  if (stuck !== null) return " to the end of its plan";
+  return goal === null && makesWay ? " to make way" : " to the goal";
 }
 
 /** Where it arrives after it was due. */

@@ -113,8 +113,15 @@ export class RobotList {
 }
 
 /** The end of a list that names only the first of `total` robots; null when it names all. */
-export function andMore(listed, total) {
+function andMore(listed, total) {
   return total > listed.length ? `and ${count(total - listed.length, "more", "more")}` : null;
+}
+
+/** The robots in the way of another one, an entry of `unplanned` or of stuckOf; null if it names none. */
+export function blockedBy(session, { blocked_by = [], blocked_by_total = 0 }) {
+  if (blocked_by.length === 0) return null;
+  const chips = blocked_by.map((id) => robotChip(session, id));
+  return element("div", { class: "chips" }, "Blocked by:", ...chips, andMore(blocked_by, blocked_by_total));
 }
 
 /** A button that names a robot and selects it. */

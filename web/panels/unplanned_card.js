@@ -1,8 +1,9 @@
 // The robots without a plan, by the reasons, and more time for those that had too little; and robots that are stuck.
 
+import { stuckOf } from "../model/stuck.js";
 import { byId, element } from "../ui/dom.js";
 import { grouped, seconds } from "../ui/format.js";
-import { andMore, robotChip } from "./robot_list.js";
+import { blockedBy, robotChip } from "./robot_list.js";
 
 const MOST_UNFOLDED = 12; // robots of a reason
 const WITH_MORE_TIME = ["budget_exhausted", "blocked_by_robots"]; // reasons that may change
@@ -55,17 +56,6 @@ export function longerBudget({ unplanned, search }, budget, { max_budget_ms = In
   return mayHelp && longer > (budget ?? Infinity) ? longer : null;
 }
 
-/** The robots whose plans gain nothing within the horizon, as entries like those of `unplanned`. */
-export function stuckOf(answer) {
-  const stuck = (answer?.plans ?? []).filter((plan) => plan.stuck === true);
-  return stuck.map(({ robot, blocked_by, blocked_by_total }) => ({
-    robot,
-    reason: "stuck",
-    blocked_by,
-    blocked_by_total,
-  }));
-}
-
 /** The entries by reason, the most frequent one first: [[reason, entries]]. */
 export function groupsOf(unplanned) {
   const groups = new Map();
@@ -94,15 +84,12 @@ function groupOf(session, reason, entries) {
   return element("details", { class: "reason-group", "data-reason": reason, open }, title, list);
 }
 
-function robotCard(session, { robot, detail, blocked_by, blocked_by_total }) {
-  const blockers = blocked_by?.length > 0 ? blocked_by.map((id) => robotChip(session, id)) : [];
+function robotCard(session, entry) {
   return element(
     "li",
     { class: "card" },
-    element("div", { class: "chips" }, robotChip(session, robot)),
-    detail ? element("p", { textContent: detail }) : null,
-    blockers.length > 0
-      ? element("div", { class: "chips" }, "Blocked by:", ...blockers, andMore(blocked_by, blocked_by_total))
-      : null,
+    element("div", { class: "chips" }, robotChip(session, entry.robot)),
+    entry.detail ? element("p", { textContent: entry.detail }) : null,
+    blockedBy(session, entry),
   );
 }

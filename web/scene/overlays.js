@@ -2,6 +2,7 @@
 
 import { violationsAt } from "../model/checks.js";
 import { robotPoseAt, robotRadiusAt } from "../model/scene.js";
+import { blockersOf } from "../model/stuck.js";
 import { byId } from "../ui/dom.js";
 import { metres } from "../ui/format.js";
 import { drawPath, drawTag, markWrong, ring } from "./marks.js";
@@ -21,7 +22,7 @@ export function showBlockers(session, stage) {
   const paint = (context, view) => {
     const { theme, tracks } = view;
     const from = diskIn(session, view, session.selected);
-    for (const id of tracks.get(session.selected)?.unplanned?.blocked_by ?? []) {
+    for (const id of blockersOf(tracks.get(session.selected))) {
       const disk = diskIn(session, view, id);
       if (disk === null) continue;
       drawPath(context, [from, disk], theme.danger, { width: 1.5, alpha: 0.9, dashes: [6, 4] });

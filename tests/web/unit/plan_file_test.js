@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { test } from "node:test";
 
-import { belongsTo, OF_ANSWERS, planFile, readDocument } from "../../../web/model/plan_file.js";
+import { belongsTo, isOfAdvance, OF_ANSWERS, planFile, readDocument } from "../../../web/model/plan_file.js";
 
 const pose = (x) => ({ x, y: 0.5, theta: 0 });
 const REQUEST = {
@@ -128,6 +128,8 @@ test("answers that cannot be shown are rejected with the place of the fault", ()
     [(document) => document.plans.push(document.plans[0]), /plans\[1\] is a second plan of a/],
     [(document) => (document.plans[0].cost = null), /plans\[0\].cost is null/],
     [(document) => (document.plans[0].lower_bound = "1"), /plans\[0\].lower_bound is "1"/],
+    [(document) => (document.plans[0].stuck = "yes"), /plans\[0\].stuck is "yes"/],
+    [(document) => (document.plans[0].blocked_by = "b"), /plans\[0\].blocked_by is "b"/],
     [(document) => delete document.plans[0].actions, /plans\[0\].actions is missing/],
     [({ plans }) => (plans[0].actions[0] = 7), /plans\[0\].actions\[0\].type is missing/],
     [({ plans }) => (plans[0].actions[0].type = "fly"), /plans\[0\].actions\[0\].type is "fly"/],
@@ -142,4 +144,12 @@ test("answers that cannot be shown are rejected with the place of the fault", ()
     [(document) => (document.lower_bound = { flowtime: 1 }), /lower_bound is {"flowtime":1}/],
   ];
   for (const [change, message] of refused) assert.throws(() => readDocument(changed(change)), message);
+});
+
+test("a request of a later moment has a request and its plans, and no map of its own", () => {
+  const { plans } = ANSWER;
+  assert.ok(isOfAdvance({ request: REQUEST, plans, at: 2, states: [] }));
+  for (const other of [REQUEST, ANSWER, planFile(REQUEST, ANSWER), { request: null, plans }, null, []]) {
+    assert.equal(isOfAdvance(other), false, JSON.stringify(other));
+  }
 });

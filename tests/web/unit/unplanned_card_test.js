@@ -1,7 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { groupsOf, longerBudget, stuckOf } from "../../../web/panels/unplanned_card.js";
+import { blockersOf, stuckOf } from "../../../web/model/stuck.js";
+import { groupsOf, longerBudget } from "../../../web/panels/unplanned_card.js";
 
 const LIMITS = { max_budget_ms: 60_000 };
 const answer = (reason, search = {}) => ({ unplanned: [{ robot: "a", reason }], search });
@@ -40,4 +41,11 @@ test("robots that are stuck are listed with those in their way", () => {
     { robot: "b", reason: "stuck", blocked_by: ["a"], blocked_by_total: 1 },
   ]);
   assert.deepEqual(stuckOf(null), []);
+});
+
+test("who is in the way of a robot without a plan, or of one that is stuck, is known by its track", () => {
+  assert.deepEqual(blockersOf({ unplanned: { blocked_by: ["a"] }, stuck: null }), ["a"]);
+  assert.deepEqual(blockersOf({ unplanned: null, stuck: { blocked_by: ["b"] } }), ["b"]);
+  assert.deepEqual(blockersOf({ unplanned: null, stuck: null }), []);
+  assert.deepEqual(blockersOf(undefined), []);
 });
