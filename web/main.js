@@ -65,7 +65,7 @@ const show = (part) => {
   if (part === "comparison") earlier.compare();
 };
 const work = mapTasks();
-const opening = new Opening(session, service.fetchExample, show, work);
+const opening = new Opening(session, service, show, work);
 const address = new Address(session, opening, keptRequests());
 const keeper = new PlanKeeper(session, opening, keptPlans());
 const setup = new Setup(session, opening, new ExampleChoice(colours, service.fetchExample, work));

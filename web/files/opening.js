@@ -2,6 +2,7 @@
 
 import { isSameTask } from "../model/earlier_plans.js";
 import { isAlike } from "../model/kept_plan.js";
+import { nextTask } from "../model/latest.js";
 import { ConnectionLost, FileError, ProblemError } from "../model/problem.js";
 import { readLinkState } from "./address.js";
 import { prepareRequest } from "./prepare.js";
@@ -11,26 +12,23 @@ const NOT_KEPT =
   "The request of this address is too large for a link. Only the browser in which it was open keeps it, for some time. " +
   "Open its file instead.";
 
-/** Lets the browser paint and answer people before long work goes on. */
-const nextTask = () => new Promise((resolve) => setTimeout(resolve));
-
 export class Opening {
   #session;
-  #fetchExample;
+  #service;
   #show;
   #work;
   #reader;
   #turn = 0; // counts choices, so that a late one does not replace a newer one
 
   /**
-   * `fetchExample(name)` resolves to an example's text. `show(part)` brings a part of
+   * `service`: see service/client.js. `show(part)` brings a part of
    * the page into sight: "plan", "comparison" (of the plan with the one before), "robots" (to place) or "problem". `work`: see
    * MAP_WORK.
    */
-  constructor(session, fetchExample, show, work) {
+  constructor(session, service, show, work) {
     this.#session = session;
     this.#show = show;
-    this.#fetchExample = fetchExample;
+    this.#service = service;
     this.#work = work;
     this.#reader = new Reader(session, work);
   }
@@ -45,7 +43,7 @@ export class Opening {
 
   example(name) {
     return this.#choose(async () => {
-      const text = await this.#fetchExample(name);
+      const text = await this.#service.fetchExample(name);
       return { name, example: name, text, request: JSON.parse(text), answer: null };
     });
   }
@@ -101,7 +99,7 @@ export class Opening {
     const turn = (this.#turn += 1);
     this.#reader.dismiss();
     try {
-      const opened = await read();
+      const opened = await this.#advanced(await read());
       await prepareRequest(opened?.request, this.#work, nextTask);
       await nextTask(); // reading and showing are two
       if (turn !== this.#turn || opened === null) return false;
@@ -114,6 +112,16 @@ export class Opening {
       this.#show("problem");
       return false;
     }
+  }
+
+  /**
+   * What to open. Of a request of POST /v1/advance it is the service's answer: the request of that moment, whose robots
+   * start where they report to be.
+   */
+  async #advanced(read) {
+    if (read?.advance === undefined) return read;
+    const request = await this.#service.advance(read.advance);
+    return { name: read.name, example: null, text: JSON.stringify(request), request, answer: null };
   }
 
   /** Checks the opened plan, after it is shown. */

@@ -1,8 +1,8 @@
-// From files to what to open: {name, example: null, text, request, answer or null}. Dialogs ask where there
-// is a choice.
+// From files to what to open: {name, example: null, text, request, answer or null}; or {name, advance}, the text of a
+// request of POST /v1/advance. Dialogs ask where there is a choice.
 
 import { asRows } from "../model/drawn_map.js";
-import { belongsTo, readDocument } from "../model/plan_file.js";
+import { belongsTo, isOfAdvance, readDocument } from "../model/plan_file.js";
 import { FileError } from "../model/problem.js";
 import { megabytes } from "../ui/format.js";
 import { HEAD_BYTES, imageNamed, sortFiles } from "./file_kinds.js";
@@ -85,7 +85,8 @@ export class Reader {
     }));
     const whole = read.find(({ request }) => request !== null);
     const alone = read.find(({ request }) => request === null);
-    if (read.length === 2 && (!whole || !alone || whole.answer !== null)) {
+    if (read.length === 1 && read[0].isOfAdvance) return { name: read[0].name, advance: read[0].text };
+    if (read.length === 2 && (!whole || !alone || whole.answer !== null || alone.answer === null)) {
       throw new FileError(
         `${read[0].name} and ${read[1].name} are not a request and its answer: open one after the other.`,
       );
@@ -159,7 +160,7 @@ function readJson(text) {
   } catch (error) {
     throw new FileError(`It is not JSON: ${/** @type {Error} */ (error).message}.`);
   }
-  return readDocument(document);
+  return isOfAdvance(document) ? { request: null, answer: null, isOfAdvance: true } : readDocument(document);
 }
 
 /** The first bytes of a file, enough to determine its kind. */

@@ -21,3 +21,6 @@ export function latestOnly() {
     }, delay);
   };
 }
+
+/** Lets the browser paint and answer people before long work goes on. */
+export const nextTask = () => new Promise((resolve) => setTimeout(resolve));

@@ -523,3 +523,37 @@ test("the save menu opens, and closes by Escape, with the keyboard", async () =>
     assert.equal(await page.evaluate(() => document.activeElement.tagName), "SUMMARY");
   });
 });
+
+/** A request of POST /v1/advance: the robot of TINY reports to be late. */
+const REPORTED = {
+  request: TINY,
+  plans: PLANS,
+  at: 4,
+  states: [{ robot: "solo", action: 0, progress: 0.25, x: 1.5, y: 0.5 }],
+};
+
+test("a request of a later moment shows robots where they report to be, and is planned from there", async () => {
+  await onPage(async (page) => {
+    await drop(page, { "moment.json": JSON.stringify(REPORTED) });
+    await page.waitForFunction(() => window.fleetplan.request.robots[0]?.start.x === 1.5);
+    const { x } = await page.evaluate(() => window.fleetplan.poseOf("solo"));
+    assert.equal(x, 1.5);
+    const [robot] = (await hook(page, "request")).robots;
+    assert.ok(robot.committed.length > 0, "the move under way goes on");
+    const answer = await pressPlan(page);
+    assert.deepEqual([answer.status, answer.plans[0].actions[0].from.x], ["solved", 1.5]);
+  });
+});
+
+test("a report that cannot be is told, and what was open stays", async () => {
+  await onPage(
+    async (page) => {
+      const before = await hook(page, "request");
+      const states = [{ ...REPORTED.states[0], action: 7 }];
+      await drop(page, { "moment.json": JSON.stringify({ ...REPORTED, states }) });
+      assert.match(await problemOn(page), /\/states\/0\/action/);
+      assert.deepEqual(await hook(page, "request"), before);
+    },
+    { allowed: REFUSED },
+  );
+});
