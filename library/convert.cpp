@@ -99,6 +99,9 @@ core::Robot robot_of(const Robot& robot, const Frame& frame) {
     each.service = goal.service;
     each.not_before = goal.not_before;
     each.radius_after = goal.radius_after;
+    each.linear_speed_after = goal.linear_speed_after;
+    each.linear_acceleration_after = goal.linear_acceleration_after;
+    each.linear_deceleration_after = goal.linear_deceleration_after;
     each.due = goal.due;
   }
   if (made.via.empty()) return made;

@@ -33,7 +33,13 @@ void check_goal(const Goal& goal, const std::string& place, FaultList& faults) {
   if (goal.theta) faults.check(*goal.theta, kAngle, place + ".theta");
   faults.check(goal.service, kDuration, place + ".service");
   faults.check(goal.not_before, kDuration, place + ".not_before");
-  if (goal.radius_after) faults.check(*goal.radius_after, kLength, place + ".radius_after");
+  const auto check = [&](const std::optional<double>& number, const Range& range, const char* name) {
+    if (number) faults.check(*number, range, place + name);
+  };
+  check(goal.radius_after, kLength, ".radius_after");
+  check(goal.linear_speed_after, kLinearSpeed, ".linear_speed_after");
+  check(goal.linear_acceleration_after, kAcceleration, ".linear_acceleration_after");
+  check(goal.linear_deceleration_after, kAcceleration, ".linear_deceleration_after");
   if (!goal.due) return;
   faults.check(*goal.due, kDue, place + ".due");
   if (goal.not_before > 0.0 && *goal.due < goal.not_before) {
@@ -55,8 +61,13 @@ void check_robot(const Robot& robot, const std::string& place, FaultList& faults
   check_limit(robot.angular_acceleration, ".angular_acceleration");
   check_position(robot.start.x, robot.start.y, place + ".start", faults);
   faults.check(robot.start.theta, kAngle, place + ".start.theta");
+  const bool is_limited = robot.linear_acceleration || robot.linear_deceleration;
   for (std::size_t k = 0; k < robot.goals.size(); ++k) {
-    check_goal(robot.goals[k], item(place + ".goals", k), faults);
+    const std::string here = item(place + ".goals", k);
+    check_goal(robot.goals[k], here, faults);
+    if (is_limited || !(robot.goals[k].linear_acceleration_after || robot.goals[k].linear_deceleration_after))
+      continue;
+    faults.add(here, "A load changes the acceleration of a robot that has no linear_acceleration.");
   }
 }
 

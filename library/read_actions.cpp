@@ -7,6 +7,8 @@
 #include "core/geometry/angle.h"
 #include "core/geometry/speed_profile.h"
 #include "core/geometry/tolerance.h"
+#include "core/model/itinerary.h"
+#include "core/model/loads.h"
 
 namespace fleetplan::library {
 
@@ -46,7 +48,7 @@ const char* gap(const core::Action& action, const core::Pose& before, double now
 }
 
 /// Returns why a robot cannot execute an action; null if it can.
-const char* impossible(const core::Action& action, const core::Robot& robot) {
+const char* impossible(const core::Action& action, const core::Robot& robot, const core::Load& load) {
   const double duration = action.t_end - action.t_start;
   if (action.type == Type::rotate) {
     const double tolerance = kTurnTolerance + robot.angular_speed * kTimeRounding;
@@ -55,7 +57,7 @@ const char* impossible(const core::Action& action, const core::Robot& robot) {
   }
   if (action.type != Type::translate) return nullptr;
   const double length = distance(action.from, action.to);
-  if (length > robot.linear_speed * duration + kTolerance || (duration <= 0.0 && length > 0.0)) {
+  if (length > load.linear_speed * duration + kTolerance || (duration <= 0.0 && length > 0.0)) {
     return "is faster than the robot";
   }
   const core::Position d = action.to.position - action.from.position;
@@ -68,13 +70,11 @@ const char* impossible(const core::Action& action, const core::Robot& robot) {
 
 /// Returns why the profile of an action does not fit; null if it does. Only measured motion has none.
 /// `speed`: at the end of the action before; none: unknown.
-const char* unfit(const core::Action& action, const core::Robot& robot, std::optional<double> speed,
-                  bool may_be_measured) {
+const char* unfit(const core::Action& action, const core::Robot& robot, const core::Load& load,
+                  std::optional<double> speed, bool may_be_measured) {
   const double amount = core::amount_of(action);
-  const core::Inertia inertia = robot.inertia_of(action.type);
   if (!action.profile) {
-    const bool has_to =
-        !may_be_measured && action.type != Type::wait && inertia.is_limited && amount > kTolerance;
+    const bool has_to = !may_be_measured && robot.limits_changes_of_speed(action.type) && amount > kTolerance;
     if (has_to) return "has no profile, but the robot's acceleration is limited";
     const bool is_measured = action.type == Type::translate;
     return speed.value_or(0.0) > kTolerance && !is_measured ? "begins at rest, unlike the one before ends"
@@ -85,7 +85,7 @@ const char* unfit(const core::Action& action, const core::Robot& robot, std::opt
   if (!(profile.cruise > 0.0) || profile.cruise < std::max(profile.start, profile.end)) {
     return "has a profile whose cruise speed is 0, or less than start or end";
   }
-  const double greatest = action.type == Type::rotate ? robot.angular_speed : robot.linear_speed;
+  const double greatest = action.type == Type::rotate ? robot.angular_speed : load.linear_speed;
   if (profile.cruise > greatest + kTolerance) {
     return "has a profile that is faster than the robot";
   }
@@ -109,6 +109,8 @@ std::vector<core::Action> read_actions(const std::vector<Action>& actions, const
   core::Pose before = robot.start;
   double now = 0.0;
   std::optional<double> speed;
+  const std::vector<core::Load> loads = core::loads_of(robot);
+  core::GoalsOnTheWay served(robot);
   for (std::size_t k = 0; k < actions.size(); ++k) {
     const auto refuse = [&](const std::string& why) {
       faults.add(item(place, k), "The action " + why + '.');
@@ -126,11 +128,11 @@ std::vector<core::Action> read_actions(const std::vector<Action>& actions, const
     action.from = before;
     if (action.type != Type::translate) action.to.position = action.from.position;
     if (action.type != Type::rotate) action.to.theta = action.from.theta;
-    if (const char* why = impossible(action, robot)) return refuse(why);
-    if (action.profile) {
-      action.profile->inertia = robot.inertia_of(action.type);
-    }
-    if (const char* why = unfit(action, robot, speed, k < measured)) return refuse(why);
+    const core::Load& load = loads[served.count()];
+    if (const char* why = impossible(action, robot, load)) return refuse(why);
+    core::set_inertia(action, robot, load);
+    if (const char* why = unfit(action, robot, load, speed, k < measured)) return refuse(why);
+    served.execute(action);
     speed.reset();
     if (action.profile || action.type != Type::translate) speed = action.profile ? action.profile->end : 0.0;
     before = action.to;

@@ -9,7 +9,7 @@
 
 #include "core/geometry/tolerance.h"
 #include "core/model/itinerary.h"
-#include "core/model/radius_steps.h"
+#include "core/model/loads.h"
 
 namespace fleetplan::api {
 
@@ -25,8 +25,8 @@ constexpr double kSameService = 1e-9;
 struct GoalsLeft {
   std::vector<core::Goal> goals;
   std::size_t visited = 0;
-  double radius = 0.0;  // metres, of the robot
-  double age = 0.0;     // seconds for which the next one could have been served already
+  core::Load load;   // of the robot
+  double age = 0.0;  // seconds for which the next one could have been served already
 };
 
 /// Whether the last goal has been served by the rest at the end of a plan.
@@ -38,11 +38,26 @@ bool has_served_last(const core::Robot& robot, const Actions& actions, double pr
 }
 
 /// The first of these goals that changes the radius.
-std::optional<std::size_t> first_load(const core::Robot& robot, std::size_t begin, std::size_t end) {
+std::optional<std::size_t> first_new_radius(const core::Robot& robot, std::size_t begin, std::size_t end) {
   for (std::size_t k = begin; k < end; ++k) {
     if (robot.goal_at(k).radius_after) return k;
   }
   return std::nullopt;
+}
+
+/// Whether the robot has another load after this goal.
+bool has_load_after(const core::Goal& goal) {
+  return goal.radius_after || goal.linear_speed_after || goal.linear_acceleration_after ||
+         goal.linear_deceleration_after;
+}
+
+/// Gives the load after a goal that is served, once.
+void take_load(core::Goal& goal, core::Load& load) {
+  load = core::load_after(load, goal);
+  goal.radius_after.reset();
+  goal.linear_speed_after.reset();
+  goal.linear_acceleration_after.reset();
+  goal.linear_deceleration_after.reset();
 }
 
 /// What is left of the service at this goal, if the robot has reported it.
@@ -66,7 +81,7 @@ GoalsLeft goals_left(const core::Robot& robot, const Execution& execution, doubl
   GoalsLeft left;
   left.visited = itinerary.first_goal;
   // Nobody has made room for a robot without a plan: it has been served, but its load is still to come.
-  const auto load = execution.planned ? std::nullopt : first_load(robot, visited_by_plan, left.visited);
+  const auto load = execution.planned ? std::nullopt : first_new_radius(robot, visited_by_plan, left.visited);
   left.visited = load.value_or(left.visited);
   for (std::size_t k = left.visited; k < robot.goal_count(); ++k) {
     core::Goal goal = robot.goal_at(k);
@@ -74,16 +89,17 @@ GoalsLeft goals_left(const core::Robot& robot, const Execution& execution, doubl
     if (goal.due) goal.due = std::max(-kLongestTime, *goal.due - at);
     left.goals.push_back(goal);
   }
-  left.radius = core::changes_radius(robot) ? core::radii_of(robot)[left.visited] : robot.radius;
+  left.load = core::loads_of(robot)[left.visited];
   if (left.goals.empty()) return left;
   double due = itinerary.visited.empty() ? -robot.goal_age : itinerary.visited.back().t_leave;
   const double not_before = robot.goal_at(left.visited).not_before;
   if (not_before > 0.0) due = std::max(due, not_before);
   left.age = std::clamp(at - due, 0.0, kLongestTime);
   core::Goal& last = left.goals.back();
-  const bool matters = last.radius_after || execution.stays_when_served;
+  const bool has_load = has_load_after(last);
+  const bool matters = has_load || execution.stays_when_served;
   const bool is_served = matters && execution.planned && has_served_last(robot, actions, progress);
-  if (is_served && last.radius_after) left.radius = *std::exchange(last.radius_after, std::nullopt);
+  if (is_served && has_load) take_load(last, left.load);
   if (is_served && execution.stays_when_served) {
     left.visited = robot.goal_count();
     left.goals.clear();
@@ -215,7 +231,7 @@ bool needs_time_to_stop(const core::Robot& robot) {
 /// Whether the actions from an index on have the profiles that those of a plan for the robot have.
 bool have_profiles(const Actions& actions, std::size_t first, const core::Robot& robot) {
   const auto has_its_own = [&](const Action& action) {
-    return action.profile || !robot.inertia_of(action.type).is_limited;
+    return action.profile || !robot.limits_changes_of_speed(action.type);
   };
   const auto begin = actions.begin() + static_cast<std::ptrdiff_t>(std::min(first, actions.size()));
   return std::all_of(begin, actions.end(), has_its_own);
@@ -317,7 +333,7 @@ core::Robot advanced(const core::Robot& robot, const Execution& execution, const
 
   core::Robot next = robot;
   next.start = rest.start;
-  next.radius = left.radius;
+  core::set_load(next, left.load);
   renumber(rest.actions, execution.goals ? robot.goal_count() : left.visited);
   set_goals(next, execution.goals ? *execution.goals : std::move(left.goals));
   if (!execution.goals) align_service(next, rest);

@@ -76,6 +76,7 @@ void parse_events(const JsonReader& root, const RobotNames& names, const Limits&
     entry.require("goals");
     ParsedGoals goals = parse_goals(entry, WorldFrame{}, quota);
     if (!robot) return;
+    check_loads(goals.places, request.fleet.robots[*robot].robot);
     executions[*robot].goals = std::move(goals.goals);
     if (request.fleet.robots[*robot].robot.yields()) {
       executions[*robot].goals->emplace_back().anywhere = true;
@@ -266,6 +267,11 @@ void write_goal(JsonWriter& json, const core::Goal& goal, const GoalTexts& texts
   if (goal.not_before > 0.0) json.member("not_before", goal.not_before);
   if (goal.due) json.member("due", *goal.due);
   if (goal.radius_after) json.member("radius_after", *goal.radius_after);
+  if (goal.linear_speed_after) json.member("linear_speed_after", *goal.linear_speed_after);
+  if (goal.linear_acceleration_after)
+    json.member("linear_acceleration_after", *goal.linear_acceleration_after);
+  if (goal.linear_deceleration_after)
+    json.member("linear_deceleration_after", *goal.linear_deceleration_after);
   if (!texts.actions.empty() && goal.service > 0.0) json.key("actions").json(texts.actions);
   if (!texts.metadata.empty()) json.key("metadata").json(texts.metadata);
   json.end_object();
@@ -350,18 +356,37 @@ void write_goals(JsonWriter& json, const core::Robot& robot, const TextsOfGoals&
   json.end_array();
 }
 
-/// `radius`: that the robot had.
-void write_robot(JsonWriter& json, const JsonValue& given, double radius, const core::Robot& robot,
-                 const TextsOfGoals& texts, bool returns, core::Work& work) {
-  const bool has_other_radius = robot.radius != radius;
+/// The traits that the load has changed, by their names.
+std::vector<std::pair<std::string_view, double>> changed_traits(const core::Robot& before,
+                                                                const core::Robot& robot) {
+  std::vector<std::pair<std::string_view, double>> changed;
+  if (robot.radius != before.radius) changed.emplace_back("radius", robot.radius);
+  if (robot.linear_speed != before.linear_speed) changed.emplace_back("linear_speed", robot.linear_speed);
+  // A deceleration that is not given follows the acceleration.
+  if (robot.linear_inertia() != before.linear_inertia()) {
+    for (const auto& [name, limit] : {std::pair("linear_acceleration", robot.linear_acceleration),
+                                      std::pair("linear_deceleration", robot.linear_deceleration)}) {
+      if (limit < core::Robot::kNoLimit) changed.emplace_back(name, limit);
+    }
+  }
+  return changed;
+}
+
+/// `before`: as the request gave it.
+void write_robot(JsonWriter& json, const JsonValue& given, const core::Robot& before,
+                 const core::Robot& robot, const TextsOfGoals& texts, bool returns, core::Work& work) {
+  const auto changed = changed_traits(before, robot);
+  const auto is_changed = [&](std::string_view key) {
+    return std::any_of(changed.begin(), changed.end(), [&](const auto& trait) { return trait.first == key; });
+  };
   json.begin_object();
   for (const JsonValue member : given.children()) {
     if (std::find(kChanging.begin(), kChanging.end(), member.key()) != kChanging.end()) continue;
-    if (has_other_radius && member.key() == "radius") continue;
+    if (is_changed(member.key())) continue;
     json.key(member.key());
     copy_json(json, member);
   }
-  if (has_other_radius) json.member("radius", robot.radius);
+  for (const auto& [name, value] : changed) json.member(name, value);
   write_start(json, robot);
   const bool is_listed = given.find("goals").has_value() || texts.are_other();
   write_goals(json, robot, texts, given.find("goal").has_value() || !is_listed, returns);
@@ -376,7 +401,7 @@ void write_robots(JsonWriter& json, const JsonValue& given, const AdvanceRequest
   json.begin_array();
   std::size_t index = 0;
   for (const JsonValue robot : given.children()) {
-    write_robot(json, robot, request.robots[index].radius, robots[index],
+    write_robot(json, robot, request.robots[index], robots[index],
                 TextsOfGoals(request, index, robots[index]), request.returns[index], work);
     ++index;
   }

@@ -6,7 +6,7 @@
 
 #include "api/advance/advance.h"
 #include "api/advance/committed_motion.h"
-#include "core/model/radius_steps.h"
+#include "core/model/loads.h"
 
 namespace fleetplan::api {
 

@@ -7,7 +7,7 @@
 
 #include "core/geometry/tolerance.h"
 #include "core/model/itinerary.h"
-#include "core/model/radius_steps.h"
+#include "core/model/loads.h"
 
 namespace fleetplan::api {
 

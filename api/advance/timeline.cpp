@@ -5,6 +5,7 @@
 #include "api/advance/advance.h"
 #include "core/geometry/angle.h"
 #include "core/geometry/tolerance.h"
+#include "core/model/loads.h"
 
 namespace fleetplan::api {
 
@@ -126,13 +127,14 @@ double heading_along(const core::Position& path, const Action& planned) {
 }
 
 /// The action under way as it goes on from a measured pose; nothing if it is done. `left`: seconds, of a
-/// wait.
-std::optional<Action> continued(const core::Robot& robot, Action action, const Pose& pose, double left) {
+/// wait. `linear_speed`: the greatest of the robot with its load.
+std::optional<Action> continued(const core::Robot& robot, double linear_speed, Action action,
+                                const Pose& pose, double left) {
   const double duration = action.t_end - action.t_start;
   if (action.type == Action::Type::translate) {
     const core::Position path = action.to.position - pose.position;
     const bool has_reached = path.norm() <= kReached || core::amount_of(action) <= 0.0;
-    left = has_reached ? 0.0 : scaled(duration, core::amount_of(action), path.norm(), robot.linear_speed);
+    left = has_reached ? 0.0 : scaled(duration, core::amount_of(action), path.norm(), linear_speed);
     action.from = {pose.position, heading_along(path, action)};
     action.to.theta = action.from.theta;
   } else if (action.type == Action::Type::rotate) {
@@ -167,12 +169,14 @@ void go_on_at(double speed, Actions& driven, Actions& following) {
   driven = driven_from(std::move(chain), 0.0, speed);
 }
 
-/// The action under way continued from a pose, and the others after it. `speed`: of the robot, if the action
-/// has a profile.
-Remainder continued_from(const core::Robot& robot, const Pose& pose, const Action& planned, Actions following,
-                         double left_of_wait, double speed) {
+/// The action with this index continued from a pose, and the others after it. `speed`: of the robot, if the
+/// action has a profile.
+Remainder continued_from(const core::Robot& robot, const Actions& actions, std::size_t index,
+                         const Pose& pose, Actions following, double left_of_wait, double speed) {
+  const Action& planned = actions[index];
+  const double linear_speed = core::load_during(robot, actions, index).linear_speed;
   Remainder rest{planned.to, {}};
-  if (const auto action = continued(robot, planned, pose, left_of_wait)) {
+  if (const auto action = continued(robot, linear_speed, planned, pose, left_of_wait)) {
     rest.start = action->from;
     rest.actions.push_back(*action);
     if (action->profile) go_on_at(speed, rest.actions, following);
@@ -307,7 +311,7 @@ Remainder remainder_of_measured(const core::Robot& robot, const Actions& actions
                                 const Progress& progress, double at, std::optional<double> speed) {
   if (progress.action == actions.size()) return remainder(robot, actions, at);
   const Action& planned = actions[progress.action];
-  return continued_from(robot, pose, planned, shifted(actions, progress.action + 1, at),
+  return continued_from(robot, actions, progress.action, pose, shifted(actions, progress.action + 1, at),
                         std::max(0.0, planned.t_end - at), speed_of(planned, progress.t, speed));
 }
 
@@ -317,10 +321,10 @@ Remainder remainder_of_reported(const core::Robot& robot, const Execution& execu
   const Action& planned = actions[progress.action];
   const auto& service_left = execution.reported->service_left;
   const std::size_t last = service_left ? end_of_service(actions, progress.action) : progress.action;
-  return continued_from(robot, execution.measured.value_or(pose_at(planned, progress.t)), planned,
-                        shifted(actions, last + 1, at),
-                        wait_left(robot, planned, progress.t, service_left, at),
-                        speed_of(planned, progress.t, execution.speed));
+  return continued_from(
+      robot, actions, progress.action, execution.measured.value_or(pose_at(planned, progress.t)),
+      shifted(actions, last + 1, at), wait_left(robot, planned, progress.t, service_left, at),
+      speed_of(planned, progress.t, execution.speed));
 }
 
 bool goes_on(const Action& action, const Action& next) {

@@ -56,10 +56,14 @@ double end_after(const Itinerary& itinerary, const std::vector<double>& seconds)
   return t;
 }
 
-double lower_bound(const Robot& robot, const Motion& motion) {
+double lower_bound(const Robot& robot, const PlanOptions& options) {
   const Itinerary itinerary = itinerary_of(robot);
+  const std::vector<Load> loads = loads_of(robot);
   std::vector<double> seconds;
-  for (const GoalLeg& leg : legs_of(itinerary)) seconds.push_back(lower_bound(leg, motion));
+  for (const GoalLeg& leg : legs_of(itinerary)) {
+    const Load& load = loads[itinerary.first_goal + seconds.size()];
+    seconds.push_back(lower_bound(leg, motion_of(robot, options, load)));
+  }
   return end_after(itinerary, seconds);
 }
 

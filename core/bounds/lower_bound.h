@@ -38,7 +38,7 @@ double lower_bound(const GoalLeg& leg, const Motion& motion);
 double end_after(const Itinerary& itinerary, const std::vector<double>& seconds);
 
 /// A lower bound of the cost of a robot with a goal, seconds, obstacles ignored.
-double lower_bound(const Robot& robot, const Motion& motion);
+double lower_bound(const Robot& robot, const PlanOptions& options);
 
 /// A lower bound of the cost of a robot that may reverse and gets `distance` metres (> 0) in a direction,
 /// from one heading to another one (none: any), seconds. Obstacles and waits are left out. The robot need not

@@ -216,8 +216,10 @@ struct TautPathBounds::Way {
   std::vector<GoalLeg> legs;
   std::vector<double> seconds;  // by leg
 
-  Way(const Itinerary& itinerary, const Motion& motion) : legs(legs_of(itinerary)) {
-    for (const GoalLeg& leg : legs) seconds.push_back(lower_bound(leg, motion));
+  Way(const Instance& instance, std::size_t robot) : legs(legs_of(instance.itinerary(robot))) {
+    for (const GoalLeg& leg : legs) {
+      seconds.push_back(lower_bound(leg, instance.motion(robot, seconds.size())));
+    }
   }
   /// The most seconds that the leg takes in the cheapest plan, if there is a plan of this cost.
   double most_seconds(const Itinerary& itinerary, std::size_t leg, double cost) const {
@@ -245,8 +247,7 @@ void TautPathBounds::bound(const Instance& instance, const std::vector<std::size
   std::vector<Way> ways;
   std::int64_t tested = 0;
   for (const std::size_t robot : robots) {
-    const Motion& motion = instance.motion(robot);
-    const Way& way = ways.emplace_back(instance.itinerary(robot), motion);
+    const Way& way = ways.emplace_back(instance, robot);
     seconds_[robot] = end_after(instance.itinerary(robot), way.seconds);
     for (std::size_t leg = 0; leg < way.legs.size() && !cut_off_; ++leg) {
       if (++tested % kLegsBetweenStops == 0) cut_off_ = stop.met();

@@ -10,7 +10,7 @@
 #include "core/geometry/motion_tree.h"
 #include "core/geometry/tolerance.h"
 #include "core/model/itinerary.h"
-#include "core/model/radius_steps.h"
+#include "core/model/loads.h"
 
 namespace fleetplan::core {
 namespace {

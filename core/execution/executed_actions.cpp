@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/model/itinerary.h"
-#include "core/model/radius_steps.h"
+#include "core/model/loads.h"
 
 namespace fleetplan::core {
 

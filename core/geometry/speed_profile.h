@@ -19,6 +19,8 @@ struct Inertia {
   /// Whether there is a limit; every move of a search asks that.
   bool is_limited = rise + fall > 0.0;
 
+  bool operator==(const Inertia&) const = default;
+
   /// Seconds from rest to rest over a distance (metres or radians, >= 0) at this greatest speed.
   double time(double distance, double speed) const {
     if (!is_limited) [[likely]]

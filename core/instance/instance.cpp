@@ -5,7 +5,7 @@
 
 #include "core/geometry/segment.h"
 #include "core/geometry/tolerance.h"
-#include "core/model/radius_steps.h"
+#include "core/model/loads.h"
 
 namespace fleetplan::core {
 namespace {
@@ -79,23 +79,9 @@ std::vector<Endpoints> endpoints(const Problem& problem, const Lattices& lattice
   return all;
 }
 
-/// By robot, null for none; or no list.
-std::vector<std::unique_ptr<const DriveZones>> drive_zones_of(const Problem& problem) {
-  std::vector<std::unique_ptr<const DriveZones>> all;
-  const bool any = std::any_of(problem.zones().begin(), problem.zones().end(),
-                               [](const Zone& zone) { return zone.type != Zone::Type::blocked; });
-  if (!any) return all;
-  for (const Robot& robot : problem.robots()) {
-    auto zones = std::make_unique<const DriveZones>(problem.zones(), all.size(), robot);
-    if (zones->empty()) zones.reset();
-    all.push_back(std::move(zones));
-  }
-  return all;
-}
-
 LargestDisk largest_disk_of(const Robot& robot, const PlanOptions& options) {
   const double radius = largest_radius(robot);
-  return {radius, motion_of(robot, options, radius).pair_radius};
+  return {radius, radius + options.inflation + robot.vicinity};
 }
 
 std::shared_ptr<const FixedReservations> fixed(const Problem& problem, const PlanOptions& options,
@@ -124,28 +110,30 @@ Instance::Instance(const Problem& problem, const PlanOptions& options,
     : problem_(problem),
       options_(options),
       lattices_(lattices_of(problem, options)),
-      drive_zones_(drive_zones_of(problem)),
       contacts_(endpoints(problem, lattices_, options.inflation)),
       fixed_reservations_(std::move(fixed_reservations)) {
   for (std::size_t i = 0; i < size(); ++i) {
     const Robot& robot = problem.robots()[i];
     const Itinerary& itinerary = itineraries_.emplace_back(itinerary_of(robot));
-    disks_.emplace_back();
-    if (!core::changes_radius(robot)) {
-      add_disk(i, robot.radius, stop);
+    stages_.emplace_back();
+    if (!core::changes_load(robot)) {
+      stages_[i].push_back(make_stage(i, core::first_load(robot), stop));
       continue;
     }
-    const std::vector<double> radii = radii_of(robot);
-    const auto first = radii.begin() + static_cast<std::ptrdiff_t>(itinerary.first_goal);
-    const bool is_one = std::all_of(first, radii.end(), [&](double radius) { return radius == *first; });
-    for (auto radius = first; radius != (is_one ? first + 1 : radii.end()); ++radius) {
-      add_disk(i, *radius, stop);
+    const std::vector<Load> loads = loads_of(robot);
+    const auto first = loads.begin() + static_cast<std::ptrdiff_t>(itinerary.first_goal);
+    const bool is_one = std::all_of(first, loads.end(), [&](const Load& load) { return load == *first; });
+    std::map<Load, Stage> known;
+    for (auto load = first; load != (is_one ? first + 1 : loads.end()); ++load) {
+      const auto [stage, is_new] = known.try_emplace(*load);
+      if (is_new) stage->second = make_stage(i, *load, stop);
+      stages_[i].push_back(stage->second);
     }
   }
 }
 
-void Instance::add_disk(std::size_t index, double radius, const StopCondition& stop) {
-  const Motion motion = motion_of(robot(index), options_, radius);
+Instance::Stage Instance::make_stage(std::size_t index, const Load& load, const StopCondition& stop) {
+  const Motion motion = motion_of(robot(index), options_, load);
   const StaticMap& map = *problem_.map_of(index);
   const Lattice& lattice = this->lattice(index);
   auto& space = free_spaces_[{lattice.spacing(), motion.radius, &map}];
@@ -153,7 +141,16 @@ void Instance::add_disk(std::size_t index, double radius, const StopCondition& s
     auto finer = map.finer_vertices(lattice, motion.radius, stop);
     space = std::make_unique<FreeSpace>(lattice, map.sight(), motion.radius, std::move(finer));
   }
-  disks_[index].push_back({motion, radius, space.get()});
+  return {motion, load, space.get(), add_zones(index, load)};
+}
+
+/// Returns the zones that limit how the robot drives with this load; null if there are none.
+const DriveZones* Instance::add_zones(std::size_t index, const Load& load) {
+  const bool any = std::any_of(problem_.zones().begin(), problem_.zones().end(),
+                               [](const Zone& zone) { return zone.type != Zone::Type::blocked; });
+  if (!any) return nullptr;
+  auto zones = std::make_unique<const DriveZones>(problem_.zones(), index, robot(index), load);
+  return zones->empty() ? nullptr : drive_zones_.emplace_back(std::move(zones)).get();
 }
 
 LargestDisk Instance::largest_disk(std::size_t index) const {
@@ -161,9 +158,9 @@ LargestDisk Instance::largest_disk(std::size_t index) const {
 }
 
 const Motion& Instance::slimmest_motion(std::size_t index) const {
-  const std::vector<Disk>& all = disks_[index];
+  const std::vector<Stage>& all = stages_[index];
   return std::min_element(all.begin(), all.end(),
-                          [](const Disk& a, const Disk& b) { return a.motion.radius < b.motion.radius; })
+                          [](const Stage& a, const Stage& b) { return a.motion.radius < b.motion.radius; })
       ->motion;
 }
 
@@ -206,7 +203,9 @@ bool Instance::fits_at(std::size_t index, const Position& position) const {
 }
 
 double Instance::longest_plan(std::size_t index) const {
-  return std::min(kLongestPlan, kLongestTravel / motion(index).linear_speed);
+  double slowest = motion(index).linear_speed;
+  for (const Stage& stage : stages_[index]) slowest = std::min(slowest, stage.motion.linear_speed);
+  return std::min(kLongestPlan, kLongestTravel / slowest);
 }
 
 double Instance::radius_at_goal(std::size_t index, const Position& goal, std::size_t stage) const {

@@ -14,6 +14,7 @@
 #include "core/map/lattice.h"
 #include "core/model/drive_zones.h"
 #include "core/model/itinerary.h"
+#include "core/model/loads.h"
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"
 #include "core/model/trajectory.h"
@@ -41,24 +42,26 @@ class Instance {
   const Problem& problem() const { return problem_; }
   const PlanOptions& options() const { return options_; }
   const Robot& robot(std::size_t index) const { return problem_.robots()[index]; }
-  /// While it has the radius with which its plan begins.
-  const Motion& motion(std::size_t index) const { return disks_[index].front().motion; }
+  /// While it carries what it does when its plan begins.
+  const Motion& motion(std::size_t index) const { return stages_[index].front().motion; }
   /// On the way to a goal that is left, by its position in Itinerary::goals; one past the last goal: at rest
   /// there for good.
-  const Motion& motion(std::size_t index, std::size_t stage) const { return disk(index, stage).motion; }
+  const Motion& motion(std::size_t index, std::size_t stage) const { return stage_of(index, stage).motion; }
   /// Its radius then, metres; neither inflation nor vicinity included.
-  double radius(std::size_t index, std::size_t stage) const { return disk(index, stage).radius; }
-  /// Whether the robot has several radii on the way to the goals that are left, or after the last one.
-  bool changes_radius(std::size_t index) const { return disks_[index].size() > 1; }
+  double radius(std::size_t index, std::size_t stage) const { return stage_of(index, stage).load.radius; }
+  /// Whether the robot has several loads on the way to the goals that are left, or after the last one.
+  bool changes_load(std::size_t index) const { return stages_[index].size() > 1; }
   /// The largest disk of the robot at any time, commitments included.
   LargestDisk largest_disk(std::size_t index) const;
   /// The motion with the smallest radius on the way to the goals that are left.
   const Motion& slimmest_motion(std::size_t index) const;
   /// Contiguous segments of a trajectory from t = 0 on, with its radii.
   std::vector<SizedSegment> segments(std::size_t index, const Trajectory& trajectory) const;
-  /// The zones that limit how the robot drives; null if there are none.
-  const DriveZones* drive_zones(std::size_t index) const {
-    return drive_zones_.empty() ? nullptr : drive_zones_[index].get();
+  /// Its load then.
+  const Load& load(std::size_t index, std::size_t stage) const { return stage_of(index, stage).load; }
+  /// The zones that limit how the robot drives in a stage; null if there are none.
+  const DriveZones* drive_zones(std::size_t index, std::size_t stage = 0) const {
+    return stage_of(index, stage).zones;
   }
   /// What is left to plan for the robot after its committed actions.
   const Itinerary& itinerary(std::size_t index) const { return itineraries_[index]; }
@@ -85,33 +88,37 @@ class Instance {
   /// Whether its disk fits at this position on the way to its first goal, or is in contact with a wall.
   bool fits_at(std::size_t index, const Position& position) const;
   /// Shared by all robots for which it is the same.
-  FreeSpace& free_space(std::size_t index, std::size_t stage = 0) const { return *disk(index, stage).space; }
+  FreeSpace& free_space(std::size_t index, std::size_t stage = 0) const {
+    return *stage_of(index, stage).space;
+  }
 
  private:
-  /// What a robot is while it has one radius.
-  struct Disk {
+  /// A robot on the way to one of its goals, or at rest at the last one.
+  struct Stage {
     Motion motion;
-    double radius = 0.0;
+    Load load;
     FreeSpace* space = nullptr;
+    const DriveZones* zones = nullptr;
   };
 
-  const Disk& disk(std::size_t index, std::size_t stage) const {
-    const std::vector<Disk>& all = disks_[index];
+  const Stage& stage_of(std::size_t index, std::size_t stage) const {
+    const std::vector<Stage>& all = stages_[index];
     return all[all.size() > 1 ? stage : 0];
   }
-  void add_disk(std::size_t index, double radius, const StopCondition& stop);
+  Stage make_stage(std::size_t index, const Load& load, const StopCondition& stop);
+  const DriveZones* add_zones(std::size_t index, const Load& load);
 
   const Problem& problem_;
   PlanOptions options_;
-  std::vector<std::shared_ptr<const Lattice>> lattices_;        // by robot; those with one spacing share one
-  std::vector<std::unique_ptr<const DriveZones>> drive_zones_;  // by robot, null for none; or empty
+  std::vector<std::shared_ptr<const Lattice>> lattices_;  // by robot; those with one spacing share one
+  std::vector<std::unique_ptr<const DriveZones>> drive_zones_;
   std::vector<Itinerary> itineraries_;
   Contacts contacts_;
   std::shared_ptr<const FixedReservations> fixed_reservations_;
   using SpaceKind = std::tuple<double, double, const StaticMap*>;  // spacing of the lattice, radius and map
   std::map<SpaceKind, std::unique_ptr<FreeSpace>> free_spaces_;
-  /// By robot: one for each stage and one for the rest at the last goal, or a single one for all.
-  std::vector<std::vector<Disk>> disks_;
+  /// By robot: one for each goal and one for the rest at the last one, or a single one for all.
+  std::vector<std::vector<Stage>> stages_;
 };
 
 }  // namespace fleetplan::core

@@ -2,6 +2,7 @@
 
 #include "core/geometry/angle.h"
 #include "core/geometry/speed_profile.h"
+#include "core/model/loads.h"
 #include "core/model/plan_options.h"
 #include "core/model/robot.h"
 
@@ -29,19 +30,19 @@ struct Motion {
   }
 };
 
-/// How the robot moves under these options while it has this radius (metres).
-inline Motion motion_of(const Robot& robot, const PlanOptions& options, double radius) {
-  return {radius + options.inflation,
-          robot.linear_speed,
+/// How the robot moves under these options while it carries this load.
+inline Motion motion_of(const Robot& robot, const PlanOptions& options, const Load& load) {
+  return {load.radius + options.inflation,
+          load.linear_speed,
           robot.angular_speed,
           options.wait_before_move,
-          radius + options.inflation + robot.vicinity,
+          load.radius + options.inflation + robot.vicinity,
           robot.may_reverse,
-          robot.linear_inertia(),
+          load.linear_inertia(),
           robot.angular_inertia()};
 }
 inline Motion motion_of(const Robot& robot, const PlanOptions& options) {
-  return motion_of(robot, options, robot.radius);
+  return motion_of(robot, options, first_load(robot));
 }
 
 }  // namespace fleetplan::core

@@ -13,7 +13,7 @@
 #include "core/map/occupancy_grid.h"
 #include "core/model/drive_zones.h"
 #include "core/model/itinerary.h"
-#include "core/model/radius_steps.h"
+#include "core/model/loads.h"
 
 namespace fleetplan::core {
 namespace {
@@ -164,11 +164,17 @@ class CommittedFaults {
 
   /// Adds the first action that breaks the rule of a zone. An action that is slower than allowed is no fault.
   void check_zones(std::size_t index) {
-    const DriveZones zones(conditions_.zones, index, robots_[index]);
-    if (zones.empty()) return;
-    for (const Action& action : robots_[index].committed) {
+    const Robot& robot = robots_[index];
+    const std::vector<Load> loads = loads_of(robot);
+    GoalsOnTheWay served(robot);
+    DriveZones zones(conditions_.zones, index, robot, loads[served.count()]);
+    for (const Action& action : robot.committed) {
       if (stop_.met()) return;
       const auto zone = zones.broken_by(action);
+      const std::size_t before = served.count();
+      served.execute(action);
+      const bool has_other_load = loads[served.count()] != loads[before];
+      if (has_other_load) zones = DriveZones(conditions_.zones, index, robot, loads[served.count()]);
       if (!zone) continue;
       ProblemFault fault{ProblemFault::Kind::committed_in_zone, index, index, 0.0, 0, action.t_start};
       fault.zone = zone;

@@ -76,10 +76,11 @@ std::vector<DriveZones::Piece> timed(const std::vector<Part>& parts, const Posit
 
 }  // namespace
 
-DriveZones::DriveZones(const std::vector<Zone>& zones, std::size_t index, const Robot& robot, Limits limits)
-    : linear_speed_(limits == Limits::slower_zones ? robot.linear_speed : Zone::kNoLimit),
-      angular_speed_(limits == Limits::slower_zones ? robot.angular_speed : Zone::kNoLimit),
-      linear_inertia_(robot.linear_inertia()),
+DriveZones::DriveZones(const std::vector<Zone>& zones, std::size_t index, const Robot& robot,
+                       const Load& load)
+    : linear_speed_(load.linear_speed),
+      angular_speed_(robot.angular_speed),
+      linear_inertia_(load.linear_inertia()),
       least_angular_speed_(angular_speed_) {
   for (std::size_t k = 0; k < zones.size(); ++k) {
     const Zone& zone = zones[k];
@@ -87,7 +88,7 @@ DriveZones::DriveZones(const std::vector<Zone>& zones, std::size_t index, const 
     if (zone.type == Zone::Type::one_way) {
       one_way_.push_back({k, Polygon(zone.polygon), zone.heading, zone.half_angle});
     }
-    const double linear_speed = zone.linear_speed_for(robot.linear_speed);
+    const double linear_speed = zone.linear_speed_for(load.linear_speed);
     const bool is_slow = linear_speed < linear_speed_ || zone.angular_speed < angular_speed_;
     if (zone.type != Zone::Type::speed || !is_slow) continue;
     speed_.push_back({k, Polygon(zone.polygon), linear_speed, zone.angular_speed});

@@ -9,6 +9,7 @@
 #include "core/geometry/segment.h"
 #include "core/geometry/speed_profile.h"
 #include "core/model/action.h"
+#include "core/model/loads.h"
 #include "core/model/robot.h"
 #include "core/model/zone.h"
 
@@ -27,12 +28,10 @@ class DriveZones {
     std::optional<SpeedProfile> profile = {};
   };
 
-  /// Which zones that limit speeds count: those that are slower than the robot, or all.
-  enum class Limits { slower_zones, all_zones };
-
-  /// The zones for `robot`, the one with this index.
-  DriveZones(const std::vector<Zone>& zones, std::size_t index, const Robot& robot,
-             Limits limits = Limits::slower_zones);
+  /// The zones for `robot`, the one with this index, while it carries a load; without one, its first.
+  DriveZones(const std::vector<Zone>& zones, std::size_t index, const Robot& robot, const Load& load);
+  DriveZones(const std::vector<Zone>& zones, std::size_t index, const Robot& robot)
+      : DriveZones(zones, index, robot, first_load(robot)) {}
 
   bool empty() const { return speed_.empty() && one_way_.empty(); }
   bool limit_speeds() const { return !speed_.empty(); }

@@ -8,55 +8,6 @@
 #include "core/geometry/tolerance.h"
 
 namespace fleetplan::core {
-namespace {
-
-/// Follows the actions from rest to rest and serves one goal after the other.
-class GoalService {
- public:
-  explicit GoalService(const Robot& robot) : robot_(robot) {}
-
-  ServedGoals run(std::span<const Action> actions) {
-    Pose pose = robot_.start;
-    rest(pose);
-    for (const Action& action : actions) {
-      if (action.type != Action::Type::wait) arrived_ = action.t_end;
-      now_ = action.t_end;
-      pose = action.to;
-      rest(pose);
-    }
-    if (robot_.goal && is_in_pose(pose, robot_.goal_at(next()))) {
-      served_.in_next_pose = true;
-      served_.arrived = arrived_;
-      served_.service_done = done_;
-    }
-    return std::move(served_);
-  }
-
- private:
-  std::size_t next() const { return served_.visits.size(); }
-
-  /// Serves the goals in this pose, in which the robot is at rest from `arrived_` to `now_`.
-  void rest(const Pose& pose) {
-    done_ = 0.0;
-    for (; next() < robot_.goal_count() && is_in_pose(pose, robot_.goal_at(next()));) {
-      const Goal& goal = robot_.goal_at(next());
-      const double begin = std::max(arrived_, goal.not_before);
-      done_ = std::clamp(now_ - begin, 0.0, goal.service);
-      if (next() + 1 == robot_.goal_count() || begin + goal.service > now_ + kSameTime) return;
-      served_.visits.push_back({next(), arrived_, begin + goal.service});
-      arrived_ = begin + goal.service;
-      done_ = 0.0;
-    }
-  }
-
-  const Robot& robot_;
-  ServedGoals served_;
-  double arrived_ = 0.0;  // begin of the rest, or end of the service of another goal in the same pose
-  double now_ = 0.0;
-  double done_ = 0.0;  // seconds of the service of the next goal
-};
-
-}  // namespace
 
 bool is_in_pose(const Pose& pose, const Goal& goal) {
   if (goal.anywhere) return true;
@@ -68,8 +19,39 @@ bool has_arrived(const Robot& robot) {
   return robot.via.empty() && robot.goal->service == 0.0 && is_in_pose(robot.committed_end(), *robot.goal);
 }
 
+GoalsOnTheWay::GoalsOnTheWay(const Robot& robot) : robot_(robot) { rest(robot.start); }
+
+void GoalsOnTheWay::execute(const Action& action) {
+  if (action.type != Action::Type::wait) arrived_ = action.t_end;
+  now_ = action.t_end;
+  rest(action.to);
+}
+
+/// Serves the goals in this pose, in which the robot is at rest from `arrived_` to `now_`.
+void GoalsOnTheWay::rest(const Pose& pose) {
+  service_done_ = 0.0;
+  for (; count() < robot_.goal_count() && is_in_pose(pose, robot_.goal_at(count()));) {
+    const Goal& goal = robot_.goal_at(count());
+    const double begin = std::max(arrived_, goal.not_before);
+    service_done_ = std::clamp(now_ - begin, 0.0, goal.service);
+    if (count() + 1 == robot_.goal_count() || begin + goal.service > now_ + kSameTime) return;
+    visits_.push_back({count(), arrived_, begin + goal.service});
+    arrived_ = begin + goal.service;
+    service_done_ = 0.0;
+  }
+}
+
 ServedGoals served_goals(const Robot& robot, std::span<const Action> actions) {
-  return GoalService(robot).run(actions);
+  GoalsOnTheWay on_the_way(robot);
+  for (const Action& action : actions) on_the_way.execute(action);
+  ServedGoals served{on_the_way.visits()};
+  const Pose pose = actions.empty() ? robot.start : actions.back().to;
+  if (robot.goal && is_in_pose(pose, robot.goal_at(on_the_way.count()))) {
+    served.in_next_pose = true;
+    served.arrived = on_the_way.arrived();
+    served.service_done = on_the_way.service_done();
+  }
+  return served;
 }
 
 std::vector<Visit> visits_of(const Robot& robot, std::span<const Action> actions) {

@@ -19,6 +19,34 @@ bool is_in_pose(const Pose& pose, const Goal& goal);
 /// Whether nothing is left to do for the robot, which has a goal, when its committed actions end.
 bool has_arrived(const Robot& robot);
 
+/// Follows the actions of a robot from rest to rest, contiguous from t = 0 in its start, and serves one goal
+/// after the other, each as early as possible: by an uninterrupted rest in its pose, or in the instant
+/// between two actions if it has no service. The last goal always remains.
+class GoalsOnTheWay {
+ public:
+  /// `robot` outlives this object.
+  explicit GoalsOnTheWay(const Robot& robot);
+
+  void execute(const Action& action);
+  /// The number of goals that it has served.
+  std::size_t count() const { return visits_.size(); }
+  /// The visits to them, in their order.
+  const std::vector<Visit>& visits() const { return visits_; }
+  /// Since when it is at rest, or the end of the service of another goal in the same pose; seconds.
+  double arrived() const { return arrived_; }
+  /// Seconds of the service at the next goal that are done.
+  double service_done() const { return service_done_; }
+
+ private:
+  void rest(const Pose& pose);
+
+  const Robot& robot_;
+  std::vector<Visit> visits_;
+  double arrived_ = 0.0;
+  double now_ = 0.0;
+  double service_done_ = 0.0;
+};
+
 /// The goals that a robot has served at the end of some actions. The last goal always remains.
 struct ServedGoals {
   std::vector<Visit> visits;  // to the first goals, in their order
@@ -27,9 +55,7 @@ struct ServedGoals {
   double service_done = 0.0;  // seconds of the service at the next goal that are done
 };
 
-/// Returns the goals that a robot has served at the end of `actions`, which are contiguous from t = 0 in its
-/// start. Each goal is served as early as possible: by an uninterrupted rest in its pose, or in the instant
-/// between two actions if it has no service.
+/// Returns the goals that a robot has served at the end of `actions`, see GoalsOnTheWay.
 ServedGoals served_goals(const Robot& robot, std::span<const Action> actions);
 
 /// Returns the visits to the goals of a robot that stays where `actions` end; the visit to the last goal has

@@ -7,7 +7,7 @@
 #include "core/map/line_of_sight.h"
 #include "core/map/occupancy_grid.h"
 #include "core/model/committed_faults.h"
-#include "core/model/radius_steps.h"
+#include "core/model/loads.h"
 
 namespace fleetplan::core {
 namespace {

@@ -26,6 +26,11 @@ struct Goal {
   /// way when it has nothing else to do (Robot::yields). Then `position` is that of the goal before it, or
   /// where the plan begins.
   bool anywhere = false;
+  /// How the robot drives from the end of the service on (metres per second, metres per second squared);
+  /// nullopt: as before. A deceleration that is not given follows an acceleration that is.
+  std::optional<double> linear_speed_after = {};
+  std::optional<double> linear_acceleration_after = {};
+  std::optional<double> linear_deceleration_after = {};
 };
 
 /// A differential-drive robot: an open disk that waits, rotates in place or translates straight ahead (or
@@ -62,10 +67,11 @@ struct Robot {
 
   Inertia linear_inertia() const { return {1.0 / linear_acceleration, 1.0 / linear_deceleration}; }
   Inertia angular_inertia() const { return {1.0 / angular_acceleration, 1.0 / angular_acceleration}; }
-  /// That of translations, or of rotations; a wait has none.
-  Inertia inertia_of(Action::Type type) const {
-    if (type == Action::Type::wait) return {};
-    return type == Action::Type::rotate ? angular_inertia() : linear_inertia();
+  /// Whether the speed of actions of this type changes within limits. Loads change limits, but give none to a
+  /// robot without them.
+  bool limits_changes_of_speed(Action::Type type) const {
+    if (type == Action::Type::wait) return false;
+    return (type == Action::Type::rotate ? angular_inertia() : linear_inertia()).is_limited;
   }
 
   std::size_t goal_count() const { return via.size() + (goal ? 1 : 0); }

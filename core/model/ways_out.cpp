@@ -14,7 +14,7 @@
 #include "core/map/way_to_lattice.h"
 #include "core/model/drive_zones.h"
 #include "core/model/itinerary.h"
-#include "core/model/radius_steps.h"
+#include "core/model/loads.h"
 #include "core/runtime/arrays.h"
 
 namespace fleetplan::core {

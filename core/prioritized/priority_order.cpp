@@ -81,7 +81,7 @@ bool differ_in_size(const Instance& instance, const PriorityOrder& order) {
 
 double random_start_delay(const Instance& instance, const PriorityOrder& order, Random& random) {
   const std::size_t other = order[random.below(order.size())];
-  return random.unit() * lower_bound(instance.robot(other), instance.motion(other));
+  return random.unit() * lower_bound(instance.robot(other), instance.options());
 }
 
 OrderSequence::OrderSequence(PlanOptions::Reordering reordering, PriorityOrder first, Random& random)

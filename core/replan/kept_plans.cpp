@@ -10,7 +10,7 @@
 #include "core/geometry/segment.h"
 #include "core/instance/motion.h"
 #include "core/model/itinerary.h"
-#include "core/model/radius_steps.h"
+#include "core/model/loads.h"
 #include "core/prioritized/plan_state.h"
 #include "core/prioritized/priority_order.h"
 #include "core/runtime/random.h"
@@ -270,8 +270,7 @@ Plan plan_without_search(const Problem& problem, const PlanOptions& options, con
     }
     RobotPlan kept = previous_plan(index, robot);
     kept.visits = visits_of(robot, kept.actions);
-    kept.lower_bound =
-        robot.goal ? std::min(kept.cost, lower_bound(robot, motion_of(robot, options))) : kept.cost;
+    kept.lower_bound = robot.goal ? std::min(kept.cost, lower_bound(robot, options)) : kept.cost;
     planned[index] = robot.goal.has_value();
     plan.objectives.flowtime += kept.cost;
     plan.objectives.makespan = std::max(plan.objectives.makespan, kept.cost);

@@ -29,7 +29,7 @@ double estimated_leg(SearchSpace& space, std::size_t from, const StopCondition& 
   return here.heading ? estimate.with_rotation(*here.heading, motion) : estimate.least();
 }
 
-/// A stage with the radius that the robot has in it.
+/// A stage with the load that the robot carries in it.
 Stage stage_at(const SearchSpace& space, std::size_t index) {
   Stage stage;
   stage.vertices = &space.vertices(index);
@@ -54,7 +54,7 @@ IndexedVector<Stage> stages_of(SearchSpace& space, const StopCondition& stop) {
     stage.not_before = goal.not_before;
     stage.after = goal.service;
     stage.is_anywhere = goal.anywhere;
-    stage.radius_changes = space.changes_radius() && space.radius(index) != space.radius(index + 1);
+    stage.radius_changes = space.changes_load() && space.radius(index) != space.radius(index + 1);
     if (k < last) stage.after += estimated_leg(space, index, stop) + stages[k + 1].after;
   }
   if (!space.rests_with_other_radius()) return stages;
@@ -136,7 +136,7 @@ Goals::Goals(SearchSpace& space, double horizon, SearchState& state)
     : space_(space),
       horizon_(horizon),
       state_(state),
-      changes_radius_(space.changes_radius()),
+      changes_load_(space.changes_load()),
       last_stage_(static_cast<int>(space.goal_count()) - (space.rests_with_other_radius() ? 0 : 1)),
       ends_anywhere_(space.itinerary().goals.back().anywhere) {}
 
@@ -196,7 +196,7 @@ double Goals::latest_departure(const Label& label) const {
 
 bool Goals::may_rest_at(const Label& label) const {
   if (state_.intervals[label.interval].end != kForever) return false;
-  if (!changes_radius_) return true;
+  if (!changes_load_) return true;
   const Place& place = state_.places[label.place];
   return !place.is_window && !touches_goal(place);
 }
@@ -287,8 +287,9 @@ void Goals::append_move(Trajectory& trajectory, const Label& from, const Label& 
   const bool continues = from.by_translation && to.departure == from.arrival && from.reverse == to.reverse &&
                          angle_between(from.heading, to.heading) <= kSameHeading;
   const Segment way{state_.places[from.place].position, state_.places[to.place].position};
-  if (space_.vertices().limit_speeds() || space_.vertices().motion().linear_inertia.is_limited) {
-    append_pieces(trajectory, space_.vertices().pieces(way), to, continues);
+  const Vertices& vertices = *stages_[state_.places[to.place].stage].vertices;
+  if (vertices.limit_speeds() || vertices.motion().linear_inertia.is_limited) {
+    append_pieces(trajectory, vertices.pieces(way), to, continues);
   } else if (continues) {
     trajectory.moves.back().path.to = way.to;
     trajectory.moves.back().t_end = to.arrival;

@@ -110,7 +110,7 @@ class Goals {
   SearchSpace& space_;
   const double horizon_;
   SearchState& state_;
-  const bool changes_radius_;
+  const bool changes_load_;
   const int last_stage_;
   const bool ends_anywhere_;  // in the last stage
   IndexedVector<Stage> stages_;

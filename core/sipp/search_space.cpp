@@ -26,7 +26,7 @@ constexpr std::size_t kWorkBetweenPolls = 16 * 1024;
 Vertices::Vertices(const Instance& instance, std::size_t robot, std::size_t stage)
     : stage_(stage),
       motion_(instance.motion(robot, stage)),
-      zones_(instance.drive_zones(robot)),
+      zones_(instance.drive_zones(robot, stage)),
       slowest_motion_(motion_),
       lattice_(instance.lattice(robot)),
       grid_(instance.problem().grid()),
@@ -227,7 +227,7 @@ SearchSpace::SearchSpace(const Instance& instance, std::size_t robot, const Stop
     ++goals_at_start_;
   }
   layers_.push_back({std::make_unique<Vertices>(instance, robot, 0, stop), 0});
-  if (changes_radius() && finished()) add_layers(stop);
+  if (changes_load() && finished()) add_layers(stop);
   if (finished()) find_equal_goals();
 }
 
@@ -252,9 +252,9 @@ void SearchSpace::begin_at(std::size_t robot, bool any_heading) {
 }
 
 void SearchSpace::add_layers(const StopCondition& stop) {
-  std::map<double, std::size_t> layer_of_radius{{radius(0), 0}};
+  std::map<Load, std::size_t> layer_of_load{{instance_.load(robot_, 0), 0}};
   for (std::size_t stage = 0; stage <= goal_count(); ++stage) {
-    const auto [known, is_new] = layer_of_radius.emplace(radius(stage), layers_.size());
+    const auto [known, is_new] = layer_of_load.emplace(instance_.load(robot_, stage), layers_.size());
     layer_of_stage_.push_back(known->second);
     if (!is_new) continue;
     const int first_vertex = vertex_count();
@@ -264,10 +264,11 @@ void SearchSpace::add_layers(const StopCondition& stop) {
 }
 
 void SearchSpace::find_equal_goals() {
-  using Kind = std::tuple<double, int, std::optional<double>>;  // radius, vertex and heading
+  using Kind = std::tuple<int, std::optional<double>>;  // vertex, as first_vertex() numbers them, and heading
   std::map<Kind, std::size_t> first;
   for (std::size_t k = 0; k < goal_count(); ++k) {
-    first_equal_.push_back(first.emplace(Kind(radius(k), goal(k).vertex, goal(k).heading), k).first->second);
+    first_equal_.push_back(
+        first.emplace(Kind(first_vertex(k) + goal(k).vertex, goal(k).heading), k).first->second);
   }
 }
 

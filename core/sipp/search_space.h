@@ -32,11 +32,11 @@ namespace fleetplan::core {
 /// So are the start inside of a zone that the robot may leave, and the places on its way out (see Leaving),
 /// which are own vertices, each linked to the next one only.
 ///
-/// A robot whose radius changes has one view for each of its radii.
+/// A robot whose load changes has one view for each of its loads.
 class Vertices {
  public:
-  /// With the radius that the robot has in a stage: on the way to one of the goals that are left, or at rest
-  /// at the last one. See Instance::motion.
+  /// With the load of the robot in a stage: on the way to one of the goals that are left, or at rest at the
+  /// last one. See Instance::motion.
   /// If `stop` is met first, the view is not finished() and must not be used.
   Vertices(const Instance& instance, std::size_t robot, std::size_t stage, const StopCondition& stop);
   /// With one goal and without a start, until begin_at() gives one: for robots that are alike, one after the
@@ -204,7 +204,7 @@ class SearchSpace {
   /// If `stop` is met first, the space is not finished() and must not be used.
   SearchSpace(const Instance& instance, std::size_t robot, const StopCondition& stop);
   /// For robots that are alike, one after the other, on their ways to the same goal; they share the costs to
-  /// go. begin_at() makes it the space of a robot, which has no commitments and one radius.
+  /// go. begin_at() makes it the space of a robot, which has no commitments and one load.
   SearchSpace(const Instance& instance, std::size_t robot, const Goal& goal);
   /// `any_heading`: the robot has the heading at its start that suits it best.
   void begin_at(std::size_t robot, bool any_heading);
@@ -216,7 +216,7 @@ class SearchSpace {
   const Itinerary& itinerary() const { return itinerary_; }
   /// In its first stage: on the way to the first goal that is left.
   const Vertices& vertices() const { return *layers_.front().vertices; }
-  /// In a stage: the robot has one view for each of its radii.
+  /// In a stage: the robot has one view for each of its loads.
   const Vertices& vertices(std::size_t stage) const { return *layer(stage).vertices; }
   /// Numbers of its vertices among those of all its views begin with this one in a stage.
   int first_vertex(std::size_t stage) const { return layer(stage).first_vertex; }
@@ -230,10 +230,10 @@ class SearchSpace {
     return stage == 0 ? vertices().start() : vertices(stage).goals()[stage - 1].vertex;
   }
 
-  bool changes_radius() const { return instance_.changes_radius(robot_); }
+  bool changes_load() const { return instance_.changes_load(robot_); }
   /// Whether it has another radius at rest at the last goal, after the service there.
   bool rests_with_other_radius() const {
-    return changes_radius() && radius(goal_count()) != radius(goal_count() - 1);
+    return changes_load() && radius(goal_count()) != radius(goal_count() - 1);
   }
   /// The radius in a stage or, with goal_count(), at rest at the last goal; metres, inflation included.
   double radius(std::size_t stage) const { return instance_.motion(robot_, stage).radius; }
@@ -272,7 +272,7 @@ class SearchSpace {
   Itinerary own_itinerary_;  // of robots one after the other
   const Itinerary& itinerary_;
   bool any_heading_at_start_ = false;
-  std::vector<Layer> layers_;                // one for each radius
+  std::vector<Layer> layers_;                // one for each load
   std::vector<std::size_t> layer_of_stage_;  // empty if there is one layer
   bool begins_in_goal_pose_;
   std::size_t goals_at_start_ = 0;                      // the first so many, which need no move

@@ -26,7 +26,7 @@ enum class ArrivalId : int { none = -1 };
 struct Place {
   int vertex;
   int stage;
-  int number;  // of the vertex among those of all radii
+  int number;  // of the vertex among those of all loads
   Position position;
   CostToGo::Estimate estimate;  // to the end of the last service
   bool any_heading;             // the goal of the stage, in which the robot may rest with any heading

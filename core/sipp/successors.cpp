@@ -13,13 +13,12 @@ Successors::Successors(const ReservationTable& table, SearchSpace& space, const 
       stop_(stop),
       motion_(space.vertices().motion()),
       vertices_(space.vertices()),
-      zones_(space.vertices().limit_speeds() ? space.vertices().zones() : nullptr),
-      changes_radius_(space.changes_radius()),
-      has_parts_(zones_ != nullptr || motion_.linear_inertia.is_limited),
+      changes_load_(space.changes_load()),
+      has_parts_(changes_load_ || vertices_.limit_speeds() || motion_.linear_inertia.is_limited),
       may_continue_(motion_.wait_before_move > 0.0 && !motion_.linear_inertia.is_limited) {}
 
 PlaceId Successors::place_of(int vertex, int stage) {
-  const int number = changes_radius_ ? goals_.stage(stage).first_vertex + vertex : vertex;
+  const int number = changes_load_ ? goals_.stage(stage).first_vertex + vertex : vertex;
   PlaceId& latest = state_.place_of_vertex[number];
   PlaceId known = latest;
   while (known != PlaceId::none && state_.places[known].stage != stage) {
@@ -45,7 +44,7 @@ PlaceId Successors::place_of(int vertex, int stage) {
   return latest;
 }
 
-/// The safe intervals of a vertex are the same in all stages with the same radius.
+/// The safe intervals of a vertex are the same in all stages with the same load.
 void Successors::append_intervals(Place& place) {
   const Stage& at = goals_.stage(place.stage);
   if (at.radius_changes && place.vertex == at.goal.vertex) {
@@ -102,8 +101,8 @@ EdgeId Successors::add_edge(LabelId via, PlaceId target, bool with_shortcut, boo
   const Move local = move_between(via, target, reverse);
   Move shortcut = with_shortcut ? move_between(state_.labels[via].parent, target, reverse) : Move{};
   // Past a slow zone, the way round may be the faster one.
-  const bool is_slower =
-      zones_ != nullptr && shortcut.ready + shortcut.duration > local.ready + local.duration + kSameTime;
+  const bool is_slower = vertices(state_.places[target].stage).limit_speeds() &&
+                         shortcut.ready + shortcut.duration > local.ready + local.duration + kSameTime;
   with_shortcut = with_shortcut && !is_slower;
   if (with_shortcut && !vertices_.any_angle()) {
     with_shortcut = angle_between(shortcut.heading, local.heading) <= kSameHeading;
@@ -118,22 +117,23 @@ inline Move Successors::move_between(LabelId from, PlaceId target, bool reverse)
   const Label& label = state_.labels[from];
   const Place& here = state_.places[label.place];
   const Place& there = state_.places[target];
-  const Displacement d = vertices(here.stage).between(here.vertex, there.vertex);
+  const Vertices& view = vertices(here.stage);
+  const Displacement d = view.between(here.vertex, there.vertex);
   Move move;
   move.heading = reverse ? opposite_heading(d.heading) : d.heading;
   move.reverse = reverse;
   double rotation = 0.0;
-  if (zones_ == nullptr) {
-    move.duration = motion_.translation_time(d.length);
+  if (!view.limit_speeds()) {
+    move.duration = view.motion().translation_time(d.length);
     rotation = motion_.rotation_time(label.heading, move.heading);
   } else {
-    move.duration = zones_->translation_time(here.position, there.position);
+    move.duration = view.zones()->translation_time(here.position, there.position);
     rotation = motion_.angular_inertia.time(angle_between(label.heading, move.heading),
-                                            zones_->angular_speed_at(here.position));
+                                            view.zones()->angular_speed_at(here.position));
   }
   if (label.parent == LabelId::none && space_.any_heading_at_start()) rotation = 0.0;
   move.ready = label.arrival + rotation + motion_.wait_before_move;
-  move.latest = changes_radius_ ? goals_.latest_departure(label) : state_.intervals[label.interval].end;
+  move.latest = changes_load_ ? goals_.latest_departure(label) : state_.intervals[label.interval].end;
   move.continues_straight = may_continue_ && label.by_translation && label.reverse == reverse &&
                             angle_between(label.heading, move.heading) <= kSameHeading;
   move.arrival = label.arrival;
@@ -155,14 +155,14 @@ std::optional<double> Successors::earliest_departure(const OpenEntry& entry,
   const Move& move = edge.move(entry.kind);
   const Segment path{state_.place_at(state_.source_of(edge, entry.kind)).position,
                      state_.places[edge.target].position};
-  const Footprint& footprint = goals_.stage(state_.places[edge.target].stage).footprint;
+  const int stage = state_.places[edge.target].stage;
   if (move.may_continue_into(target)) {
-    const auto at_once = departure(path, move.duration, move.arrival, move.arrival, footprint);
+    const auto at_once = departure(stage, path, move.duration, move.arrival, move.arrival);
     if (at_once) return at_once;
   }
   const double begin = move.ready_for(target), latest = move.latest_into(target);
   if (begin > latest) return std::nullopt;
-  return departure(path, move.duration, begin, latest, footprint);
+  return departure(stage, path, move.duration, begin, latest);
 }
 
 namespace {
@@ -184,10 +184,11 @@ std::vector<TimedSegment> parts_of(const std::vector<DriveZones::Piece>& pieces)
 
 }  // namespace
 
-std::optional<double> Successors::departure(const Segment& path, double duration, double t_min, double t_max,
-                                            const Footprint& footprint) const {
+std::optional<double> Successors::departure(int stage, const Segment& path, double duration, double t_min,
+                                            double t_max) const {
+  const Footprint& footprint = goals_.stage(stage).footprint;
   if (has_parts_) {
-    const std::vector<TimedSegment> parts = parts_of(vertices_.pieces(path));
+    const std::vector<TimedSegment> parts = parts_of(vertices(stage).pieces(path));
     if (parts.size() > 1 || parts.front().ramp != 0.0) return departure_of(parts, t_min, t_max, footprint);
   }
   return table_.earliest_departure(footprint, path, duration, t_min, t_max);

@@ -22,7 +22,7 @@ namespace fleetplan::core {
 
 /// The successors of labels for one robot: moves to neighbours, shortcuts from the parent (any-angle), moves
 /// straight to the goal, and services. What limits its moves is here and nowhere else in the search: driving
-/// backwards, zones, and radii that change from stage to stage.
+/// backwards, zones, and loads that change from stage to stage.
 class Successors {
  public:
   /// All arguments outlive this object.
@@ -55,16 +55,16 @@ class Successors {
   std::optional<double> earliest_departure(const OpenEntry& entry, const SafeInterval& target) const;
 
  private:
-  /// The vertices of the robot with the radius that it has in this stage.
+  /// The vertices of the robot with the load that it carries in this stage.
   const Vertices& vertices(int stage) const {
-    return changes_radius_ ? *goals_.stage(stage).vertices : vertices_;
+    return changes_load_ ? *goals_.stage(stage).vertices : vertices_;
   }
 
   void append_intervals(Place& place);
   void append_windows(const Place& place);
 
   template <class Visit>
-  bool visit_services_with_other_radius(LabelId from, const ServiceStop& stop, Visit&& visit);
+  bool visit_services_with_other_load(LabelId from, const ServiceStop& stop, Visit&& visit);
   EdgeId add_service(LabelId from, PlaceId next, double heading);
   template <class Visit>
   void visit_goal(LabelId from, Visit&& visit);
@@ -73,8 +73,8 @@ class Successors {
   EdgeId add_edge(LabelId via, PlaceId target, bool with_shortcut, bool reverse);
   Move move_between(LabelId from, PlaceId target, bool reverse) const;
 
-  std::optional<double> departure(const Segment& path, double duration, double t_min, double t_max,
-                                  const Footprint& footprint) const;
+  std::optional<double> departure(int stage, const Segment& path, double duration, double t_min,
+                                  double t_max) const;
   std::optional<double> departure_of(const std::vector<TimedSegment>& parts, double t_min, double t_max,
                                      const Footprint& footprint) const;
 
@@ -85,8 +85,7 @@ class Successors {
   const StopCondition& stop_;
   const Motion& motion_;
   const Vertices& vertices_;  // of the first stage
-  const DriveZones* zones_;   // that limit speeds; null for none
-  const bool changes_radius_;
+  const bool changes_load_;
   const bool has_parts_;     // whether moves may have parts of different speeds
   const bool may_continue_;  // whether a move may go on from the one before without the added wait
 };
@@ -101,8 +100,8 @@ bool Successors::visit_services(LabelId from, Visit&& visit) {
   const double t_end = std::max(stop.t_end, label.arrival);
   const double safe_until = state_.intervals[label.interval].end;
   if (t_end > safe_until) return false;
-  if (changes_radius_) {
-    const bool is_offered = visit_services_with_other_radius(from, stop, visit);
+  if (changes_load_) {
+    const bool is_offered = visit_services_with_other_load(from, stop, visit);
     return is_offered && (safe_until == kForever || place.is_window);
   }
   // The intervals of the place are the same in every stage.
@@ -113,10 +112,10 @@ bool Successors::visit_services(LabelId from, Visit&& visit) {
   return safe_until == kForever || (t_end == label.arrival && stop.heading == label.heading);
 }
 
-/// With another radius in the next stage, other intervals are safe there: those that contain the end of the
+/// With another load in the next stage, other intervals may be safe there: those that contain the end of the
 /// service. Returns whether there is one.
 template <class Visit>
-bool Successors::visit_services_with_other_radius(LabelId from, const ServiceStop& stop, Visit&& visit) {
+bool Successors::visit_services_with_other_load(LabelId from, const ServiceStop& stop, Visit&& visit) {
   constexpr double kRoundingOfTimes = 1e-9;  // seconds; more than the rounding of times
   const Label label = state_.labels[from];
   const int stage = state_.place_at(from).stage + 1;

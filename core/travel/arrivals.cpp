@@ -8,7 +8,7 @@
 
 #include "core/geometry/segment.h"
 #include "core/model/itinerary.h"
-#include "core/model/radius_steps.h"
+#include "core/model/loads.h"
 #include "core/travel/travel_times.h"
 
 namespace fleetplan::core {
@@ -31,8 +31,8 @@ struct Leg {
 /// The ways of robots that are alike: they move in the same way and are in the same zones.
 class Kind {
  public:
-  /// Robots like this one of a problem, while it has this radius (metres).
-  Kind(std::size_t like, double radius) : like_(like), radius_(radius) {}
+  /// Robots like this one of a problem, while it carries this load.
+  Kind(std::size_t like, const Load& load) : like_(like), load_(load) {}
 
   /// Returns the column and the row of the way.
   std::pair<std::size_t, std::size_t> ask(const Departure& from, const Goal& to) {
@@ -81,12 +81,9 @@ class Kind {
     std::vector<Robot> robots;
     for (const Departure& from : departures_) {
       Robot& robot = robots.emplace_back();
-      robot.radius = radius_;
-      robot.linear_speed = like.linear_speed;
+      set_load(robot, load_);
       robot.angular_speed = like.angular_speed;
       robot.may_reverse = like.may_reverse;
-      robot.linear_acceleration = like.linear_acceleration;
-      robot.linear_deceleration = like.linear_deceleration;
       robot.angular_acceleration = like.angular_acceleration;
       robot.start = from.pose;
       robot.goal = Goal{from.pose.position, std::nullopt};  // a robot that has a goal gets a way out of zones
@@ -116,7 +113,7 @@ class Kind {
   }
 
   std::size_t like_;
-  double radius_;  // metres
+  Load load_;
   std::vector<Departure> departures_;
   std::map<StartKey, std::size_t> known_departures_;
   std::map<GoalKey, std::size_t> columns_;
@@ -129,24 +126,17 @@ class Legs {
  public:
   explicit Legs(const Problem& problem) : problem_(problem) {}
 
-  /// The kind of a robot of the problem while it has this radius (metres).
-  std::size_t kind_of(std::size_t robot, double radius) {
+  /// The kind of a robot of the problem while it carries this load.
+  std::size_t kind_of(std::size_t robot, const Load& load) {
     const Robot& like = problem_.robots()[robot];
     std::vector<std::size_t> zones;
     for (std::size_t k = 0; k < problem_.zones().size(); ++k) {
       if (problem_.zones()[k].is_for(robot)) zones.push_back(k);
     }
-    const Key key{radius,
-                  like.linear_speed,
-                  like.angular_speed,
-                  like.linear_acceleration,
-                  like.linear_deceleration,
-                  like.angular_acceleration,
-                  like.may_reverse,
-                  zones};
+    const Key key{load, like.angular_speed, like.angular_acceleration, like.may_reverse, zones};
     const auto [found, is_new] = known_.emplace(key, kinds_.size());
     if (!is_new) return found->second;
-    kinds_.emplace_back(robot, radius);
+    kinds_.emplace_back(robot, load);
     return found->second;
   }
 
@@ -164,7 +154,7 @@ class Legs {
   double seconds(const Leg& leg) const { return kinds_[leg.kind].seconds(leg); }
 
  private:
-  using Key = std::tuple<double, double, double, double, double, double, bool, std::vector<std::size_t>>;
+  using Key = std::tuple<Load, double, double, bool, std::vector<std::size_t>>;
 
   const Problem& problem_;
   std::vector<Kind> kinds_;
@@ -193,7 +183,7 @@ struct Rest {
 /// A robot on its way from goal to goal.
 struct Traveller {
   std::size_t robot = 0;  // of the problem
-  double radius = 0.0;    // metres
+  Load load;
   Departure at;
 };
 
@@ -256,9 +246,8 @@ class Arrivals {
     own.takes_part = !robot.invalid && (leaving == nullptr || !leaving->postponed);
     if (!own.takes_part) return own;
     const Itinerary itinerary = itinerary_of(robot);
-    const double radius = changes_radius(robot) ? radii_of(robot)[itinerary.first_goal] : robot.radius;
     own.t_begin = itinerary.t_begin;
-    own.at_end = {index, radius, {itinerary.pose, false, true}};
+    own.at_end = {index, loads_of(robot)[itinerary.first_goal], {itinerary.pose, false, true}};
     if (!robot.committed.empty() && !itinerary.goals.empty() &&
         is_in_pose(itinerary.pose, itinerary.goals.front())) {
       own.rested = itinerary.arrived;
@@ -266,7 +255,7 @@ class Arrivals {
     for (const Goal& goal : itinerary.goals) {
       if (!goal.anywhere) visit(goal, own.at_end, own.steps);
     }
-    own.kind = legs_.kind_of(index, own.at_end.radius);
+    own.kind = legs_.kind_of(index, own.at_end.load);
     return own;
   }
 
@@ -281,7 +270,7 @@ class Arrivals {
   }
 
   void visit(const Goal& goal, Traveller& traveller, std::vector<Step>& steps) {
-    const Leg leg = legs_.ask(legs_.kind_of(traveller.robot, traveller.radius), traveller.at, goal);
+    const Leg leg = legs_.ask(legs_.kind_of(traveller.robot, traveller.load), traveller.at, goal);
     steps.push_back({leg, goal.service, goal.not_before});
     leave(goal, traveller, steps);
   }
@@ -289,9 +278,10 @@ class Arrivals {
   /// After the service. A robot that becomes larger has to fit there.
   void leave(const Goal& goal, Traveller& traveller, std::vector<Step>& steps) {
     traveller.at = {{goal.position, goal.theta.value_or(0.0)}, !goal.theta, false};
-    if (!goal.radius_after || *goal.radius_after == traveller.radius) return;
-    traveller.radius = *goal.radius_after;
-    const std::size_t kind = legs_.kind_of(traveller.robot, traveller.radius);
+    const double radius = traveller.load.radius;
+    traveller.load = load_after(traveller.load, goal);
+    if (traveller.load.radius == radius) return;
+    const std::size_t kind = legs_.kind_of(traveller.robot, traveller.load);
     steps.push_back({legs_.ask(kind, traveller.at, goal), 0.0, 0.0, true});
   }
 

@@ -10,7 +10,7 @@
 #include "core/geometry/segment.h"
 #include "core/geometry/tolerance.h"
 #include "core/model/itinerary.h"
-#include "core/model/radius_steps.h"
+#include "core/model/loads.h"
 #include "core/travel/arrivals.h"
 #include "core/travel/assignment.h"
 
@@ -337,19 +337,23 @@ std::vector<Times> straight_times(const Robot& robot, const std::vector<OpenGoal
   const Itinerary itinerary = itinerary_of(robot);
   Position at = itinerary.pose.position;
   double t = itinerary.t_begin;
+  Load load = loads_of(robot)[itinerary.first_goal];
   const auto serve = [&](const Goal& next) {
-    t += (next.position - at).norm() / robot.linear_speed;
+    t += (next.position - at).norm() / load.linear_speed;
+    load = load_after(load, next);
     at = next.position;
     t = std::max(t, next.not_before) + next.service;
   };
   for (std::size_t k = itinerary.first_goal; k < goal; ++k) serve(robot.goal_at(k));
   const Position before = at;
   const double leaves = t;
+  const Load carried = load;
   const std::vector<Goal> after = goals_until_open(robot, open, goal + 1);
   // Bounded: a hundred poses, and kGoalsAhead.
   std::vector<Times> times;
   for (const Alternative& pose : open[index].poses) {
-    const double arrives = leaves + (pose.position - before).norm() / robot.linear_speed;
+    const double arrives = leaves + (pose.position - before).norm() / carried.linear_speed;
+    load = load_after(carried, robot.goal_at(goal));
     at = pose.position;
     t = std::max(arrives, robot.goal_at(goal).not_before) + robot.goal_at(goal).service;
     for (const Goal& next : after) serve(next);

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/geometry/tolerance.h"
+#include "core/model/loads.h"
 
 namespace fleetplan::core {
 namespace {
@@ -30,7 +31,7 @@ std::vector<Tolerance> plan_tolerances(const OccupancyGrid& grid, const std::vec
   for (const RobotPlan& plan : plans) {
     if (has_given_actions(robots[plan.robot])) continue;
     Tolerance& tolerance = all[plan.robot];
-    const double travel = plan.cost * robots[plan.robot].linear_speed;
+    const double travel = plan.cost * fastest_speed(robots[plan.robot]);
     tolerance.metres = std::min(kMostTolerance, at_rest + kMotionRounding * travel);
     tolerance.seconds = kLeast + kRounding * plan.cost;
   }

@@ -29,14 +29,14 @@ namespace {
 class ProfileLegs {
  public:
   /// Divides a translation with a profile; if the profile does not fit, the speed is constant.
-  static std::vector<Leg> of(const Action& action, const Robot& robot) {
+  static std::vector<Leg> of(const Action& action, const Carried& carried) {
     const Leg whole{action.t_start, std::max(action.t_start, action.t_end), action.from.position,
                     action.to.position};
     const double length = (whole.to - whole.from).norm();
     if (!action.profile || action.type != Action::Type::translate || length <= 0.0) return {whole};
     const SpeedProfile& profile = *action.profile;
-    const double gains = (profile.cruise - profile.start) / robot.linear_acceleration;
-    const double loses = (profile.cruise - profile.end) / robot.linear_deceleration;
+    const double gains = (profile.cruise - profile.start) / carried.linear_acceleration;
+    const double loses = (profile.cruise - profile.end) / carried.linear_deceleration;
     const double first = 0.5 * (profile.start + profile.cruise) * gains;
     const double last = 0.5 * (profile.cruise + profile.end) * loses;
     const double cruises = whole.t_end - whole.t_begin - gains - loses;
@@ -74,7 +74,8 @@ class ProfileLegs {
 
 }  // namespace
 
-std::vector<Leg> execute(const Robot& robot, const RobotPlan* plan) {
+std::vector<Leg> execute(const Robot& robot, const RobotPlan* plan, const Tolerance& tolerance) {
+  const std::vector<Carried> carried = carried_by(robot, plan, tolerance);
   std::vector<Leg> legs;
   double now = 0.0;
   Position here = robot.start.position;
@@ -88,7 +89,8 @@ std::vector<Leg> execute(const Robot& robot, const RobotPlan* plan) {
       legs.push_back({now, action.t_start, here, here});
       now = action.t_start;
     }
-    for (const Leg& planned : ProfileLegs::of(action, robot)) {
+    for (const Leg& planned :
+         ProfileLegs::of(action, carried_at(carried, action.t_start, tolerance.seconds))) {
       // What lies entirely in the past, or takes no time, is executed at once.
       if (planned.t_end > now) {
         legs.push_back(part_of(planned, std::max(now, planned.t_begin), planned.t_end));
@@ -137,11 +139,6 @@ Departure departure_of(const Robot& robot, const RobotPlan* plan) {
 
 namespace {
 
-struct Change {
-  double t;
-  double radius;
-};
-
 /// Follows the actions and serves one goal after the other.
 class Services {
  public:
@@ -149,9 +146,21 @@ class Services {
       : robot_(robot),
         metres_(std::max(tolerance.metres, kContactTolerance)),
         radians_(std::max(tolerance.radians, kContactTolerance)),
-        seconds_(tolerance.seconds) {}
+        seconds_(tolerance.seconds),
+        carried_{at_first(robot)} {}
 
-  std::vector<Change> run(const std::vector<Action>& actions, bool ends_at_goal) {
+  /// What the robot is before it has served a goal.
+  static Carried at_first(const Robot& robot) {
+    return {0.0, robot.radius, robot.linear_speed, robot.linear_acceleration, robot.linear_deceleration};
+  }
+
+  /// Whether the robot is another one after this goal.
+  static bool changes(const Goal& goal) {
+    return goal.radius_after || goal.linear_speed_after || goal.linear_acceleration_after ||
+           goal.linear_deceleration_after;
+  }
+
+  std::vector<Carried> run(const std::vector<Action>& actions, bool ends_at_goal) {
     Pose pose = robot_.start;
     double now = 0.0;
     serve(pose, now);
@@ -165,7 +174,7 @@ class Services {
     if (ends_at_goal && served_ == last && is_at(pose, *robot_.goal)) {
       end_service(*robot_.goal, std::max(service_end(*robot_.goal), robot_.committed_until()));
     }
-    return std::move(changes_);
+    return std::move(carried_);
   }
 
  private:
@@ -189,7 +198,18 @@ class Services {
   }
 
   void end_service(const Goal& goal, double t) {
-    if (goal.radius_after) changes_.push_back({t, *goal.radius_after});
+    if (!changes(goal)) return;
+    const auto& acceleration = goal.linear_acceleration_after;
+    const auto& deceleration = goal.linear_deceleration_after;
+    Carried next = carried_.back();
+    next.t = t;
+    next.radius = goal.radius_after.value_or(next.radius);
+    next.linear_speed = goal.linear_speed_after.value_or(next.linear_speed);
+    next.linear_acceleration = acceleration.value_or(next.linear_acceleration);
+    if (acceleration || deceleration) {
+      next.linear_deceleration = deceleration ? *deceleration : next.linear_acceleration;
+    }
+    carried_.push_back(next);
   }
 
   const Robot& robot_;
@@ -198,19 +218,26 @@ class Services {
   double seconds_;
   double free_from_ = 0.0;  // begin of the next service at the earliest
   std::size_t served_ = 0;  // number of goals
-  std::vector<Change> changes_;
+  std::vector<Carried> carried_;
 };
 
-std::vector<Change> changes_of(const Robot& robot, const RobotPlan* plan, const Tolerance& tolerance) {
-  const bool changes =
-      robot.goal && !robot.invalid &&
-      (robot.goal->radius_after || std::any_of(robot.via.begin(), robot.via.end(), [](const Goal& goal) {
-         return goal.radius_after.has_value();
-       }));
-  const bool does_nothing = plan == nullptr && robot.committed.empty();
-  if (!changes || does_nothing) return {};
+}  // namespace
+
+std::vector<Carried> carried_by(const Robot& robot, const RobotPlan* plan, const Tolerance& tolerance) {
+  const bool does_nothing = robot.invalid || (plan == nullptr && robot.committed.empty());
+  const bool changes = robot.goal && (Services::changes(*robot.goal) ||
+                                      std::any_of(robot.via.begin(), robot.via.end(), Services::changes));
+  if (does_nothing || !changes) return {Services::at_first(robot)};
   return Services(robot, tolerance).run(plan != nullptr ? plan->actions : robot.committed, plan != nullptr);
 }
+
+const Carried& carried_at(const std::vector<Carried>& carried, double t, double tolerance) {
+  const auto next = std::upper_bound(carried.begin() + 1, carried.end(), t + tolerance,
+                                     [](double time, const Carried& one) { return time < one.t; });
+  return *std::prev(next);
+}
+
+namespace {
 
 /// Moves the legs until `t` from the begin of `legs` into a list of their own, and returns that list.
 std::vector<Leg> take_until(double t, std::vector<Leg>& legs) {
@@ -228,16 +255,15 @@ std::vector<Leg> take_until(double t, std::vector<Leg>& legs) {
 
 }  // namespace
 
-std::vector<Body> bodies_of(const Robot& robot, const RobotPlan* plan, std::vector<Leg> legs,
-                            const Tolerance& tolerance) {
+std::vector<Body> bodies_of(const std::vector<Carried>& carried, std::vector<Leg> legs) {
   std::vector<Body> bodies;
-  double radius = robot.radius;
-  for (const Change& change : changes_of(robot, plan, tolerance)) {
-    if (change.radius != radius) {
-      std::vector<Leg> before = take_until(change.t, legs);
+  double radius = carried.front().radius;
+  for (const Carried& next : carried) {
+    if (next.radius != radius) {
+      std::vector<Leg> before = take_until(next.t, legs);
       if (!before.empty()) bodies.push_back({radius, std::move(before)});
     }
-    radius = change.radius;
+    radius = next.radius;
   }
   bodies.push_back({radius, std::move(legs)});
   return bodies;

@@ -33,13 +33,32 @@ Position position_at(const Leg& leg, double t);
 /// Returns the part of a leg from `begin` to `end`, which are within it; both may be the same.
 Leg part_of(const Leg& leg, double begin, double end);
 
+/// What a robot is from a time on, until it has served the next goal that changes it: its radius
+/// (`radius_after`) and how fast it drives (`linear_speed_after` and its companions).
+struct Carried {
+  double t = 0.0;                    // seconds
+  double radius = 0.0;               // metres
+  double linear_speed = 0.0;         // metres per second
+  double linear_acceleration = 0.0;  // metres per second squared
+  double linear_deceleration = 0.0;
+};
+
+/// Returns what a robot is that executes a plan (null: its commitment), from t = 0 on, ascending; at least
+/// one. Each goal is served as early as possible, by an uninterrupted rest in its pose after the goals before
+/// it. The last one is served by the rest at the end of the plan, after the commitment; a robot without a
+/// plan does not serve it. One that has neither a plan nor a commitment serves none.
+std::vector<Carried> carried_by(const Robot& robot, const RobotPlan* plan, const Tolerance& tolerance);
+
+/// Returns that of them during an action that begins at `t`; times may differ by `tolerance` seconds.
+const Carried& carried_at(const std::vector<Carried>& carried, double t, double tolerance);
+
 /// Returns the legs of a robot from t = 0 to infinity, in order, each beginning when the previous one ends.
 /// Without a plan (null) the robot executes its committed actions, unless it is invalid. Without actions it
 /// stays at its start; otherwise it rests where its last action ends. Invalid plans are executed as follows:
 /// in a gap between actions the robot stands; of an action that begins before the previous one has ended (or
 /// before 0), the overlapping part is omitted; an action that ends before it begins takes no time. Every
 /// number of the plan (and of the committed actions) is finite.
-std::vector<Leg> execute(const Robot& robot, const RobotPlan* plan);
+std::vector<Leg> execute(const Robot& robot, const RobotPlan* plan, const Tolerance& tolerance = {});
 
 /// Returns the legs of an obstacle from when it appears until it vanishes, or to infinity. An obstacle that
 /// appears for an instant only has a leg that takes no time.
@@ -68,15 +87,8 @@ struct Body {
 };
 
 /// Returns the disks of a robot, each from the end of the one before, the first from t = 0, the last to
-/// infinity. `legs` are the result of execute() for the same plan (null: the robot has none and executes its
-/// commitment).
-///
-/// The radius changes at the end of the service at a goal with `radius_after`. Each goal is served as early
-/// as possible, by an uninterrupted rest in its pose after the goals before it. The last one is served by the
-/// rest at the end of the plan, after the commitment; a robot without a plan does not serve it. One that
-/// has neither a plan nor a commitment serves none.
-std::vector<Body> bodies_of(const Robot& robot, const RobotPlan* plan, std::vector<Leg> legs,
-                            const Tolerance& tolerance);
+/// infinity. `legs` are the result of execute(), and `carried` that of carried_by(), for the same plan.
+std::vector<Body> bodies_of(const std::vector<Carried>& carried, std::vector<Leg> legs);
 
 /// Robots that execute their plans. All lists are in the same order; a position in them is not the index of
 /// the robot. A robot whose radius changes has several positions, one after the other, for one time each (see

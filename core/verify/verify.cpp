@@ -54,7 +54,7 @@ class FleetCheck {
       return;
     }
     const Tolerance& tolerance = rules_.tolerances[index];
-    const ZonesOfRobot zones(request_.zones, index, request_.robots[index]);
+    const ZonesOfRobot zones(request_.zones, index);
     if (const auto less = without_goals_put_off(request_.robots[index], plan, zones, tolerance)) {
       check_alone(index, less->robot, plan != nullptr ? &less->plan : nullptr, field, zones);
     } else {
@@ -110,7 +110,8 @@ class FleetCheck {
     const Departure departure = departure_of(robot, plan);
     std::vector<Leg> legs;
     std::vector<double> radii;  // by leg
-    for (Body& body : bodies_of(robot, plan, execute(robot, plan), tolerance)) {
+    const std::vector<Carried> carried = carried_by(robot, plan, tolerance);
+    for (Body& body : bodies_of(carried, execute(robot, plan, tolerance))) {
       legs.insert(legs.end(), body.legs.begin(), body.legs.end());
       radii.resize(legs.size(), body.radius);
       add_to_fleet(robot, plan, std::move(body), departure, index);
@@ -124,7 +125,8 @@ class FleetCheck {
     violations_.add(check_obstacles(field, index, kept, legs, tolerance.metres, stop_));
     if (zones.empty()) return;
     violations_.add(zones.check_blocked(kept, legs, departure, tolerance.metres, stop_));
-    violations_.add(zones.check_driving(plan != nullptr ? plan->actions : robot.committed, tolerance, stop_));
+    violations_.add(
+        zones.check_driving(plan != nullptr ? plan->actions : robot.committed, carried, tolerance, stop_));
   }
 
   void add_to_fleet(const Robot& robot, const RobotPlan* plan, Body body, const Departure& departure,

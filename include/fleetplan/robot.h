@@ -21,6 +21,11 @@ struct Goal {
   /// Seconds by which the robot should arrive, not before `not_before`; see Options::Objective. Negative: the
   /// past. None: it is never late.
   std::optional<double> due = {};
+  /// How the robot drives from the end of the service on, metres per second (squared); none: as before.
+  /// Accelerations are for robots that have one; a deceleration that is not given follows the acceleration.
+  std::optional<double> linear_speed_after = {};
+  std::optional<double> linear_acceleration_after = {};
+  std::optional<double> linear_deceleration_after = {};
 };
 
 /// A differential-drive robot: an open disk that waits, rotates in place or translates straight ahead (or

@@ -207,6 +207,7 @@ void add_members(Json& request, Choices& choices) {
       place["service"] = goal % 3;
       if (goal % 5 == 4)
         place["radius_after"] = request["robot_defaults"]["radius"].get<double>() * (1.0 + goal % 2);
+      if (goal % 7 == 3) place["linear_speed_after"] = goal % 2 == 0 ? 1e-3 : 2.0;
       list.push_back(std::move(place));
     }
     list.push_back(robots[k]["goal"]);
@@ -217,6 +218,13 @@ void add_members(Json& request, Choices& choices) {
   if (choices.yes()) {
     request["robot_defaults"]["linear_acceleration"] = choices.one_of(std::array{1e-3, 0.5, 1e6});
     request["robot_defaults"]["angular_acceleration"] = choices.one_of(std::array{1e-3, 2.0, 1e6});
+    for (Json& robot : robots) {
+      std::size_t number = 0;
+      for (Json& goal : robot["goals"]) {
+        if (++number % 3 == 0) goal["linear_acceleration_after"] = number % 2 == 0 ? 1e-3 : 1.0;
+      }
+      if (robot["goals"].empty()) robot.erase("goals");
+    }
   }
 }
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/model/itinerary.h"
-#include "core/model/radius_steps.h"
+#include "core/model/loads.h"
 #include "core/planner.h"
 #include "core/verify/verify.h"
 #include "tests/support/expect_replanned.h"

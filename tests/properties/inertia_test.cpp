@@ -15,6 +15,7 @@
 #include "tests/core/execution/simulation/study.h"
 #include "tests/support/expect_bounds.h"
 #include "tests/support/expect_safe.h"
+#include "tests/support/moving_fleet.h"
 #include "tests/support/random_zones.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/summary.h"
@@ -42,6 +43,9 @@ Problem with_inertia(support::Dice& dice, const Problem& problem) {
     }
     if (dice.chance(0.5)) robot.angular_acceleration = std::pow(10.0, dice.between(-1.0, 2.0));
     robot.may_reverse = dice.chance(0.2);
+    if (!robot.goal || dice.chance(0.6)) continue;
+    support::add_goals(dice, problem.grid(), robot);
+    support::change_speeds(dice, robot);
   }
   ProblemConditions conditions;
   conditions.zones = problem.zones();
@@ -60,14 +64,20 @@ Problem random_inertial_problem(support::Dice& dice, int seed) {
 /// A robot that is driven step by step along the actions of its plan.
 class Driver {
  public:
-  Driver(const Robot& robot, const std::vector<Action>& actions)
-      : robot_(robot), actions_(actions), here_(robot.start.position) {}
+  Driver(const Robot& robot, const RobotPlan& plan)
+      : robot_(robot),
+        visits_(plan.visits),
+        actions_(plan.actions),
+        acceleration_(robot.linear_acceleration),
+        deceleration_(robot.linear_deceleration),
+        here_(robot.start.position) {}
 
   /// Goes on for one step. Returns the position.
   Position step() {
     const double until = t_ + kStep;
     while (index_ < actions_.size() && t_ < until) {
       const Action& action = actions_[index_];
+      take_loads(action.t_start);
       const double dt = std::min(until, action.t_end) - t_;
       if (action.type == Action::Type::translate)
         here_ += dt * speed(action, t_ + 0.5 * dt) * direction(action);
@@ -84,19 +94,32 @@ class Driver {
   }
 
  private:
+  /// What it has loaded before an action.
+  void take_loads(double t) {
+    for (; served_ < visits_.size() && visits_[served_].t_leave <= t + kStep; ++served_) {
+      const Goal& goal = robot_.goal_at(visits_[served_].goal);
+      acceleration_ = goal.linear_acceleration_after.value_or(acceleration_);
+      deceleration_ =
+          goal.linear_deceleration_after.value_or(goal.linear_acceleration_after.value_or(deceleration_));
+    }
+  }
   static Position direction(const Action& action) {
     return (action.to.position - action.from.position).normalized();
   }
   double speed(const Action& action, double t) const {
     if (!action.profile)
       return (action.to.position - action.from.position).norm() / (action.t_end - action.t_start);
-    const double gained = action.profile->start + robot_.linear_acceleration * (t - action.t_start);
-    const double to_lose = action.profile->end + robot_.linear_deceleration * (action.t_end - t);
+    const double gained = action.profile->start + acceleration_ * (t - action.t_start);
+    const double to_lose = action.profile->end + deceleration_ * (action.t_end - t);
     return std::min({action.profile->cruise, gained, to_lose});
   }
 
   const Robot& robot_;
+  const std::vector<Visit>& visits_;
   const std::vector<Action>& actions_;
+  double acceleration_;  // metres per second squared, with its load
+  double deceleration_;
+  std::size_t served_ = 0;  // goals
   std::size_t index_ = 0;
   double t_ = 0.0;
   Position here_;
@@ -109,7 +132,7 @@ void expect_execution_without_overlap(const Problem& problem, const Plan& plan) 
   std::vector<Position> places;
   double end = 0.0;
   for (const RobotPlan& robot : plan.plans) {
-    drivers.emplace_back(problem.robots()[robot.robot], robot.actions);
+    drivers.emplace_back(problem.robots()[robot.robot], robot);
     robots.push_back(robot.robot);
     if (!robot.actions.empty()) end = std::max(end, robot.actions.back().t_end);
   }
@@ -209,7 +232,11 @@ TEST_P(FleetWithInertia, IsExecutedByDependenciesWithinItsLimits) {
   const auto run = Simulator::make(fleet, settings, StopCondition::never())->run(0, StopCondition::never());
 
   Plan executed = plan;
-  for (std::size_t k = 0; k < executed.plans.size(); ++k) executed.plans[k].actions = trace->actions[k];
+  for (std::size_t k = 0; k < executed.plans.size(); ++k) {
+    RobotPlan& late = executed.plans[k];
+    late.actions = trace->actions[k];
+    late.visits = visits_of(problem.robots()[late.robot], late.actions);
+  }
   for (const RobotPlan& robot : executed.plans) {
     double speed = 0.0;
     for (const Action& action : robot.actions) {

@@ -8,7 +8,7 @@ import unittest
 from support import PROJECT, met, service
 
 from fleetplan import Client, Executor, Report
-from fleetplan.course import Course, Limits, Move
+from fleetplan.course import Course, Limits, Move, limits_by_action
 from fleetplan.simulation import SimulatedFleet
 
 
@@ -379,7 +379,7 @@ class Courses(unittest.TestCase):
         course = actions(("rotate", 1.0), ("translate", 18.0))
         course[0] |= {"t_end": 2.0, "profile": {"start": 0.0, "cruise": 1.0, "end": 0.0}}
         course[1] |= {"t_start": 2.0, "t_end": 14.0, "profile": {"start": 0.0, "cruise": 2.0, "end": 0.0}}
-        moves = Course(pose(0.0), course, limits=Limits(1.0, 0.5, 1.0))
+        moves = Course(pose(0.0), course, limits=[Limits(1.0, 0.5, 1.0)] * 2)
         for t, place in ((0.5, 0.125), (1.0, 0.5), (1.5, 0.875), (3.0, 1 + 0.5 / 18), (4.0, 1 + 2.0 / 18),
                          (10.0, 1 + 14.0 / 18), (12.0, 1 + 17.0 / 18), (14.0, 2.0)):
             self.assertAlmostEqual(moves.place_at(t), place)
@@ -388,6 +388,21 @@ class Courses(unittest.TestCase):
         for place in (1.0, 1.0 - 2e-10):  # at rest before the translation, but for rounding
             self.assertEqual(moves.time_at(place), 2.0)
         self.assertEqual(moves.planned_speed(1), 2.0)
+
+    def test_loads_change_the_limits_of_the_actions_after_them(self):
+        goals = [{"linear_acceleration_after": 0.2}, {"linear_deceleration_after": 0.1}, {}]
+        request = {"robot_defaults": {"linear_acceleration": 1.0}}
+        robot = {"goals": goals}
+        course = actions(("translate", 2.0), ("wait", 1.0, 0), ("translate", 2.0), ("wait", 1.0, 1), ("translate", 1.0))
+        empty, loaded, heavy = Limits(1.0, 1.0), Limits(0.2, 0.2), Limits(0.2, 0.1)
+        by_action = [empty, empty, loaded, loaded, heavy]
+        self.assertEqual(limits_by_action(request, robot, course, None), by_action)
+        visits = [{"goal": 0, "t_arrive": 2.0, "t_leave": 3.0}, {"goal": 1, "t_arrive": 5.0, "t_leave": 6.0},
+                  {"goal": 2, "t_arrive": 7.0, "t_leave": None}]
+        self.assertEqual(limits_by_action(request, robot, course, visits), by_action)
+        self.assertEqual(limits_by_action(request, robot, course, visits[1:])[4], Limits(1.0, 0.1))
+        put_off = [{"goal": 0, "t_arrive": None, "t_leave": None}]
+        self.assertEqual(limits_by_action(request, robot, course, put_off), [empty] * 5)
 
     def test_moves_end_where_the_other_course_leads_elsewhere(self):
         course = Course(pose(0.0), actions(("translate", 1.0), ("rotate", 1.0)))

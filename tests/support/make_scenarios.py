@@ -441,7 +441,8 @@ def warehouse_inertia():
 
 
 def forklifts():
-    """A depot where forklifts with slow brakes fetch pallets from racks, which make them larger, and stack them."""
+    """A depot where forklifts with slow brakes fetch pallets from racks, which make them larger and slower, and stack
+    them."""
     grid = Map(64, 40, 0.5)
     for row in (8, 16, 24, 32):  # racks with aisles of 6 cells between them
         grid.block(16, row, 32, 2)
@@ -454,9 +455,12 @@ def forklifts():
         beside_rack = [5.75, 7.25, 9.75, 11.25, 13.75, 15.25, 17.75, 7.25, 11.25, 15.25][index]
         made = robot(f"lift-{index + 1:02}", pose(2.0 if left else 30.0, lane, 0.0 if left else PI), **lift)
         made["goals"] = [
-            {"x": 9.5 + 1.45 * index, "y": beside_rack, "service": 6.0, "radius_after": 0.7},
+            {"x": 9.5 + 1.45 * index, "y": beside_rack, "service": 6.0, "radius_after": 0.7,
+             "linear_speed_after": 1.5, "linear_acceleration_after": 0.4, "linear_deceleration_after": 0.25},
             {"x": 30.0 if left else 2.0, "y": lane, "theta": 0.0 if left else PI, "service": 4.0,
-             "radius_after": 0.5},
+             "radius_after": 0.5, "linear_speed_after": lift["linear_speed"],
+             "linear_acceleration_after": lift["linear_acceleration"],
+             "linear_deceleration_after": lift["linear_deceleration"]},
         ]
         robots.append(made)
     return {"map": grid.json(), "robots": robots, "options": {"time_budget_ms": 10000}}

@@ -10,9 +10,9 @@
 
 #include "core/geometry/angle.h"
 #include "core/model/itinerary.h"
+#include "core/model/loads.h"
 #include "core/model/plan.h"
 #include "core/model/problem.h"
-#include "core/model/radius_steps.h"
 
 namespace fleetplan::support {
 
@@ -81,7 +81,9 @@ inline void leave_visited_goals(core::Robot& robot, const core::RobotPlan& plan,
       break;
     }
   }
-  for (std::size_t k = 0; k < first; ++k) robot.radius = goals[k].radius_after.value_or(robot.radius);
+  for (std::size_t k = 0; k < first; ++k) {
+    core::set_load(robot, core::load_after(core::first_load(robot), goals[k]));
+  }
   if (plan.visits.size() == goals.size() && first + 1 == goals.size()) {
     core::Goal& last = goals.back();
     const double begin = std::max(plan.visits.back().t_arrive, last.not_before);
@@ -119,12 +121,12 @@ inline core::Robot robot_at_moment(core::Robot robot, const core::RobotPlan& pla
   return robot;
 }
 
-/// Leaves out the goals that the robot's commitment has served by `t`; the robot has the radius after them.
+/// Leaves out the goals that the robot's commitment has served by `t`; the robot has the load after them.
 inline void leave_goals_served(core::Robot& robot, double t) {
   core::Robot past = robot;
   past.committed = actions_before(robot.committed, t);
   const std::size_t served = core::itinerary_of(past).first_goal;
-  robot.radius = core::radii_of(robot)[served];
+  core::set_load(robot, core::loads_of(robot)[served]);
   robot.via.erase(robot.via.begin(), robot.via.begin() + static_cast<std::ptrdiff_t>(served));
 }
 
@@ -133,7 +135,7 @@ inline core::Robot robot_at_moment(core::Robot robot, double t) {
   const std::vector<core::Action> given = robot.committed;
   const std::vector<core::Action> rest = actions_after(given, t);
   const core::Pose end = robot.committed_end();
-  if (core::changes_radius(robot)) leave_goals_served(robot, t);
+  if (core::changes_load(robot)) leave_goals_served(robot, t);
   robot.start = rest.empty() ? end : rest.front().from;
   robot.committed = rest;
   robot.previous.reset();

@@ -14,10 +14,10 @@
 
 #include "core/geometry/position.h"
 #include "core/map/occupancy_grid.h"
+#include "core/model/loads.h"
 #include "core/model/plan.h"
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"
-#include "core/model/radius_steps.h"
 #include "tests/support/moments.h"
 #include "tests/support/random_problem.h"
 
@@ -137,10 +137,24 @@ inline bool may_rest(const std::vector<core::Robot>& robots, const core::Robot& 
   return true;
 }
 
-/// Makes robots grow or shrink at some goals, where there is room for them there and at the next goal.
+/// Makes a robot slower or faster at some goals; accelerations change only if they are limited.
+inline void change_speeds(Dice& dice, core::Robot& robot) {
+  const auto times = [&](double value) { return value * dice.between(0.3, 1.2); };
+  for (std::size_t k = 0; k < robot.goal_count(); ++k) {
+    core::Goal& goal = k < robot.via.size() ? robot.via[k] : *robot.goal;
+    if (dice.chance(0.6)) goal.linear_speed_after = times(robot.linear_speed);
+    if (!robot.linear_inertia().is_limited) continue;
+    if (dice.chance(0.4)) goal.linear_acceleration_after = times(robot.linear_acceleration);
+    if (dice.chance(0.3)) goal.linear_deceleration_after = times(robot.linear_deceleration);
+  }
+}
+
+/// Makes robots grow or shrink at some goals, where there is room for them there and at the next goal, and
+/// some of them slower or faster.
 inline void add_loads(Dice& dice, FleetRequest& request) {
   for (core::Robot& robot : request.robots) {
     if (!robot.goal || dice.chance(0.2)) continue;
+    if (dice.chance(0.4)) change_speeds(dice, robot);
     const std::size_t last = robot.via.size();
     for (std::size_t k = 0; k <= last; ++k) {
       const double radius = request.grid.resolution() * dice.between(0.15, 0.75);

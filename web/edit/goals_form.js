@@ -29,6 +29,9 @@ const FIELDS = {
   not_before: { label: "Not before", unit: "s" },
   due: { label: "Due", unit: "s" },
   radius_after: { label: "Radius after", unit: "m" },
+  linear_speed_after: { label: "Speed after", unit: "m/s" },
+  linear_acceleration_after: { label: "Acceleration after", unit: "m/s²" },
+  linear_deceleration_after: { label: "Deceleration after", unit: "m/s²" },
 };
 const ASIDE = 3; // radii between the last pose and a new one
 const MOST_POSES = 100; // of a goal

@@ -4,7 +4,7 @@
 /** @import {Action, Inertia} from "./types.js" */
 
 /** What the robot of a request needs to change its speed: seconds to gain, and to lose, a metre (radian) per second. */
-export function inertiaOf(robot, defaults) {
+export function inertiaOf(robot, defaults = null) {
   const inverse = (name) => {
     const given = robot?.[name] ?? defaults?.[name];
     return Number.isFinite(given) && given > 0 ? 1 / given : 0;
@@ -13,17 +13,30 @@ export function inertiaOf(robot, defaults) {
   return { rise, fall: inverse("linear_deceleration") || rise, turn: inverse("angular_acceleration") };
 }
 
+/** That of a robot, which had another one, after a goal whose load changes how it drives. */
+export function inertiaAfter(goal, inertia) {
+  const loaded = inertiaOf({
+    linear_acceleration: goal?.linear_acceleration_after,
+    linear_deceleration: goal?.linear_deceleration_after,
+  });
+  return { ...inertia, rise: loaded.rise || inertia.rise, fall: loaded.fall || inertia.fall };
+}
+
 /**
  * The actions, each that has a profile with `changes`: the seconds in which its speed rises and falls.
  * @param {Action[]} actions
- * @param {Inertia} inertia
+ * @param {Inertia} inertia at first
+ * @param {{t: number, inertia: Inertia}[]} later each from its t on
  */
-export function withChanges(actions, inertia) {
+export function withChanges(actions, inertia, later = []) {
   if (!actions.some(({ profile }) => profile)) return actions;
+  const rounding = 1e-6; // seconds
+  const inertiaAt = (t) => later.findLast((each) => each.t <= t + rounding)?.inertia ?? inertia;
   return actions.map((action) => {
     const { profile, type } = action;
     if (!profile) return action;
     const turns = type === "rotate";
+    const inertia = inertiaAt(action.t_start);
     const rise = (profile.cruise - profile.start) * (turns ? inertia.turn : inertia.rise);
     const fall = (profile.cruise - profile.end) * (turns ? inertia.turn : inertia.fall);
     return { ...action, changes: { rise, fall } };

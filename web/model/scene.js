@@ -7,7 +7,7 @@ import { preparedCells, readRows } from "./grid_cells.js";
 import { robotsOf } from "./listed.js";
 import { radiusAt } from "./motion.js";
 import { readObstacles } from "./moving_obstacles.js";
-import { inertiaOf, withChanges } from "./profile.js";
+import { inertiaAfter, inertiaOf, withChanges } from "./profile.js";
 import { stuckOf } from "./stuck.js";
 import { doingAt, pathOf, poseAt } from "./timeline.js";
 import { readZones } from "./zones.js";
@@ -70,10 +70,18 @@ function readRobots(request) {
       committed,
       vicinity: vicinityOf(robot, request.robot_defaults),
       makesWay: robot.idle === "yield" || robot.idle === "return",
-      inertia: inertiaOf(robot, request.robot_defaults),
+      ...inertiasOf(robot, request.robot_defaults),
     });
   });
   return robots;
+}
+
+/** What a robot needs to change its speed, and after each of its goals. */
+function inertiasOf(robot, defaults) {
+  const inertia = inertiaOf(robot, defaults);
+  let latest = inertia;
+  const inertiasAfter = goalsOf(robot).map((goal) => (latest = inertiaAfter(goal, latest)));
+  return { inertia, inertiasAfter };
 }
 
 /** The distance that a robot keeps from others, metres. */
@@ -133,7 +141,11 @@ export function readTracks(scene, answer, outdated = null) {
       continue;
     }
     const listed = (plans.get(robot.id) ?? failures.get(robot.id))?.actions ?? [];
-    const actions = withChanges(listed, robot.inertia);
+    const loads = leavesOf(plans.get(robot.id)).map(({ goal, t }) => ({
+      t,
+      inertia: robot.inertiasAfter[goal] ?? robot.inertia,
+    }));
+    const actions = withChanges(listed, robot.inertia, loads);
     tracks.set(robot.id, {
       status: statusOf(robot, plans, failures),
       actions,
@@ -178,15 +190,19 @@ function lateOf(plan) {
   return visits.filter(({ late_by }) => late_by > 0).map(({ goal, late_by }) => ({ goal, seconds: late_by }));
 }
 
-/** The radii that goals change, from the ends of their services. */
-function radiiOf({ radiiAfter }, plan) {
+/** When services at goals end, in their order: [{goal, t}]. */
+function leavesOf(plan) {
   const visits = Array.isArray(plan?.visits) ? plan.visits : [];
   const reached = visits.filter(({ t_arrive }) => t_arrive !== null);
-  const changes = reached.map(({ goal, t_leave }) => ({
-    t: t_leave ?? plan.cost,
-    radius: radiiAfter[goal] ?? null,
-  }));
-  return changes.filter(({ t, radius }) => Number.isFinite(t) && radius !== null);
+  return reached
+    .map(({ goal, t_leave }) => ({ goal, t: t_leave ?? plan.cost }))
+    .filter(({ t }) => Number.isFinite(t));
+}
+
+/** The radii that goals change, from the ends of their services. */
+function radiiOf({ radiiAfter }, plan) {
+  const changes = leavesOf(plan).map(({ goal, t }) => ({ t, radius: radiiAfter[goal] ?? null }));
+  return changes.filter(({ radius }) => radius !== null);
 }
 
 function statusOf(robot, plans, failures) {

@@ -13,7 +13,8 @@
  */
 
 /** @typedef {GivenPose & {service?: number, not_before?: number, due?: number,
- * radius_after?: number}} GivenGoal */
+ * radius_after?: number, linear_speed_after?: number, linear_acceleration_after?: number,
+ * linear_deceleration_after?: number}} GivenGoal */
 
 /**
  * A disk that nobody controls; it leaves after its motion unless `after` is "stays".
@@ -178,7 +179,8 @@
  * @property {Position[]} committed
  * @property {number} vicinity
  * @property {boolean} makesWay
- * @property {Inertia} inertia
+ * @property {Inertia} inertia at first
+ * @property {Inertia[]} inertiasAfter after each of its goals
  */
 
 /** @typedef {{id: string, radius: number, motion: {t: number, x: number, y: number}[], stays: boolean}}

@@ -50,10 +50,6 @@ std::string seconds(double t) { return number_text(t) + " s"; }
 
 }  // namespace
 
-void set_inertia(core::Action& action, const core::Robot& robot) {
-  if (action.profile) action.profile->inertia = robot.inertia_of(action.type);
-}
-
 double covered_by_profile(const core::Action& action) {
   const core::SpeedProfile& profile = *action.profile;
   const double cruises = action.t_end - action.t_start - profile.rise_time() - profile.fall_time();
@@ -75,13 +71,47 @@ void leave_out_unfit_profiles(std::vector<core::Action>& actions) {
   }
 }
 
+LoadOnTheWay::LoadOnTheWay(const core::Robot& robot, const std::vector<core::OpenGoal>& open)
+    : robot_(robot), open_(open), loads_(core::loads_of(robot)), served_(settled_at_start()) {}
+
+/// A goal that is not served at the start is settled again.
+const core::Robot& LoadOnTheWay::settled_at_start() {
+  // Bounded: the poses of open goals, each once.
+  for (std::size_t k = 0; k < open_.size(); ++k) settle(open_[k].goal, robot_.start);
+  return robot_;
+}
+
+void LoadOnTheWay::execute(const core::Action& action) {
+  // Bounded: the goals in one pose, each once.
+  for (std::size_t before = loads_.size(); before != served_.count();) {
+    before = served_.count();
+    settle(before, action.to);
+    served_.execute(action);
+  }
+}
+
+/// Chooses the pose of the goal that the robot is in, if the goal is open.
+void LoadOnTheWay::settle(std::size_t goal, const core::Pose& pose) {
+  const auto open = std::lower_bound(open_.begin(), open_.end(), goal,
+                                     [](const core::OpenGoal& one, std::size_t k) { return one.goal < k; });
+  if (open == open_.end() || open->goal != goal) return;
+  // Bounded: a hundred poses.
+  for (std::size_t k = 0; k < open->poses.size(); ++k) {
+    if (!core::is_in_pose(pose, {open->poses[k].position, open->poses[k].theta})) continue;
+    return core::choose(robot_, *open, k);
+  }
+}
+
 ActionChain::ActionChain(const ActionsOwner& owner)
     : robot_(owner.robot),
       linear_speed_(owner.linear_speed),
       angular_speed_(owner.angular_speed),
       may_reverse_(owner.may_reverse),
       measured_(owner.measured),
-      pose_(owner.start) {}
+      pose_(owner.start) {
+  if (!core::changes_load(owner.robot)) return;
+  loads_.emplace(owner.robot, owner.open != nullptr ? *owner.open : std::vector<core::OpenGoal>());
+}
 
 std::string ActionChain::name() const { return "Action " + std::to_string(count_) + " (from 0)"; }
 
@@ -95,12 +125,13 @@ core::Action ActionChain::append(core::Action action, const JsonReader& item) {
     action = joined(action);
     check_speed(action, item);
     check_direction(action, std::max(given, sideways(action)), item);
-    set_inertia(action, robot_);
+    core::set_inertia(action, robot_, load());
     if (action.profile) check_profile(action, item);
     check_has_profile(action, item);
     check_speeds_meet(action, item);
     if (action.reverse) check_reverse(action, item);
   }
+  if (loads_) loads_->execute(action);
   now_ = action.t_end;
   pose_ = action.to;
   const bool measured = action.type == core::Action::Type::translate && !action.profile;
@@ -160,11 +191,16 @@ void ActionChain::check_type(const core::Action& action, const JsonReader& item)
   });
 }
 
+std::optional<double> ActionChain::greatest_speed(const core::Action& action) const {
+  if (action.type == core::Action::Type::rotate) return angular_speed_;
+  return loads_ && linear_speed_ ? loads_->load().linear_speed : linear_speed_;
+}
+
 void ActionChain::check_speed(const core::Action& action, const JsonReader& item) const {
   const double duration = action.t_end - action.t_start;
   const bool translates = action.type == core::Action::Type::translate;
   const double amount = core::amount_of(action);
-  const auto& speed = translates ? linear_speed_ : angular_speed_;
+  const auto speed = greatest_speed(action);
   const char* const unit = translates ? "m" : "rad";
   const bool instant = translates && duration <= 0.0 && amount > 0.0;
   const double tolerance = translates ? kTolerance : kTurnTolerance + speed.value_or(0.0) * kTimeRounding;
@@ -191,7 +227,7 @@ void ActionChain::check_profile(const core::Action& action, const JsonReader& it
   const core::SpeedProfile& profile = *action.profile;
   const bool turns = action.type == core::Action::Type::rotate;
   const JsonReader member = item.find("profile");
-  const auto& speed = turns ? angular_speed_ : linear_speed_;
+  const auto speed = greatest_speed(action);
   if (speed && profile.cruise > *speed + kTolerance) {
     member.fault(fault::kProfile, [&] {
       return name() + " has a profile with a cruise speed of " + number_text(profile.cruise) +
@@ -222,7 +258,7 @@ void ActionChain::check_profile(const core::Action& action, const JsonReader& it
 /// Only what is committed may be measured.
 void ActionChain::check_has_profile(const core::Action& action, const JsonReader& item) const {
   if (action.profile || count_ < measured_) return;
-  if (!robot_.inertia_of(action.type).is_limited || core::amount_of(action) <= kTolerance) return;
+  if (!robot_.limits_changes_of_speed(action.type) || core::amount_of(action) <= kTolerance) return;
   item.fault(fault::kProfile, [&] {
     return name() +
            " has no profile, but the robot's acceleration is limited; give the action as it was planned.";

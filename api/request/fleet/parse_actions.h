@@ -11,6 +11,9 @@
 #include "api/request/world_frame.h"
 #include "core/geometry/tolerance.h"
 #include "core/model/action.h"
+#include "core/model/itinerary.h"
+#include "core/model/loads.h"
+#include "core/model/open_goal.h"
 #include "core/model/robot.h"
 
 namespace fleetplan::api {
@@ -18,9 +21,6 @@ namespace fleetplan::api {
 /// Reads one action, in the world and with its headings as given. Values with a fault are 0. A profile has
 /// its speeds only, until the robot is known.
 core::Action parse_action(const JsonReader& item, const Range& times);
-
-/// Completes the profile of an action of this robot.
-void set_inertia(core::Action& action, const core::Robot& robot);
 
 /// Whether a profile leads over the length (or angle) of its action in its time; and the length that it
 /// covers.
@@ -35,13 +35,14 @@ core::Action to_map(const core::Action& world, const WorldFrame& frame);
 
 /// The robot that executes actions, as far as it is known; what could not be read is not compared.
 struct ActionsOwner {
-  const core::Robot& robot;             // its accelerations are known
+  const core::Robot& robot;             // its accelerations and its goals are known
   std::optional<core::Pose> start;      // in the map frame
   std::optional<double> linear_speed;   // metres per second
   std::optional<double> angular_speed;  // radians per second
   std::optional<bool> may_reverse = {};
   /// The first so many actions may be measured motion, which has no profiles.
   std::size_t measured = std::numeric_limits<std::size_t>::max();
+  const std::vector<core::OpenGoal>* open = nullptr;  // those of its goals that are open; null: none
 };
 
 /// The actions of a robot from t = 0 in its start. Each begins exactly when and where the one before ends.
@@ -54,6 +55,28 @@ struct ParsedActions {
 /// their types or are faster than the robot are faults; then none are returned.
 std::optional<ParsedActions> parse_actions(const JsonReader& list, const ActionsOwner& owner,
                                            const WorldFrame& frame);
+
+/// The load of a robot that executes actions one after the other. A goal that is open is served in the pose
+/// in which the robot rests first.
+class LoadOnTheWay {
+ public:
+  LoadOnTheWay(const core::Robot& robot, const std::vector<core::OpenGoal>& open);
+  LoadOnTheWay(const LoadOnTheWay&) = delete;
+  LoadOnTheWay& operator=(const LoadOnTheWay&) = delete;
+
+  /// That with which it executes the next action.
+  const core::Load& load() const { return loads_[served_.count()]; }
+  void execute(const core::Action& action);
+
+ private:
+  const core::Robot& settled_at_start();
+  void settle(std::size_t goal, const core::Pose& pose);
+
+  core::Robot robot_;
+  std::vector<core::OpenGoal> open_;
+  std::vector<core::Load> loads_;  // by the number of goals served
+  core::GoalsOnTheWay served_;
+};
 
 /// Joins the actions of a robot one after the other, in the map frame, and reports those that do not fit.
 /// Differences up to core::kContactTolerance (metres, seconds, radians) are accepted and removed, so that the
@@ -80,6 +103,9 @@ class ActionChain {
   void check_speeds_meet(const core::Action& action, const JsonReader& item) const;
   void check_reverse(const core::Action& action, const JsonReader& item) const;
   core::Action joined(core::Action action) const;
+  core::Load load() const { return loads_ ? loads_->load() : core::first_load(robot_); }
+  /// The greatest speed of this action, metres (or radians) per second; none: unknown.
+  std::optional<double> greatest_speed(const core::Action& action) const;
   std::string name() const;
 
   const core::Robot& robot_;
@@ -89,8 +115,9 @@ class ActionChain {
   std::size_t measured_;
   std::optional<double> now_ = 0.0;  // seconds; none: unknown, as is the pose
   std::optional<core::Pose> pose_;
-  std::optional<double> speed_;  // at the end of the action before; none: unknown
-  std::size_t count_ = 0;        // number of the actions before
+  std::optional<double> speed_;        // at the end of the action before; none: unknown
+  std::size_t count_ = 0;              // number of the actions before
+  std::optional<LoadOnTheWay> loads_;  // of a robot that changes its load
 };
 
 }  // namespace fleetplan::api

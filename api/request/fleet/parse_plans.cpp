@@ -138,8 +138,7 @@ std::vector<core::RobotPlan> parse_plans(const JsonReader& member, std::vector<P
       plan.robot = *owner;
       is_planned[*owner] = true;
       settle_choices(json, plan, robots[*owner]);
-      // Bounded: the actions that were read.
-      for (core::Action& action : plan.actions) set_inertia(action, robots[*owner].robot);
+      core::set_inertia(plan.actions, robots[*owner].robot);
       plans.push_back(std::move(plan));
     }
   }

@@ -20,8 +20,19 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<std::string_view, 10> kGoalMembers{
-    "x", "y", "theta", "any_of", "service", "not_before", "due", "radius_after", "actions", "metadata"};
+constexpr std::array<std::string_view, 13> kGoalMembers{"x",
+                                                        "y",
+                                                        "theta",
+                                                        "any_of",
+                                                        "service",
+                                                        "not_before",
+                                                        "due",
+                                                        "radius_after",
+                                                        "linear_speed_after",
+                                                        "linear_acceleration_after",
+                                                        "linear_deceleration_after",
+                                                        "actions",
+                                                        "metadata"};
 constexpr std::array<std::string_view, 4> kAlternativeMembers{"x", "y", "theta", "bias"};
 
 /// A robot that waits for `not_before` is not late, so it cannot be due before.
@@ -63,40 +74,49 @@ std::vector<core::Alternative> parse_any_of(const JsonReader& goal, const JsonRe
   return poses;
 }
 
+/// Reads what changes with the service. Returns whether anything does.
+bool parse_load(const JsonReader& json, core::Goal& goal) {
+  goal.radius_after = json.find("radius_after").number(kLength);
+  goal.linear_speed_after = json.find("linear_speed_after").number(kLinearSpeed);
+  goal.linear_acceleration_after = json.find("linear_acceleration_after").number(kLinearAcceleration);
+  goal.linear_deceleration_after = json.find("linear_deceleration_after").number(kLinearAcceleration);
+  return goal.radius_after || goal.linear_speed_after || goal.linear_acceleration_after ||
+         goal.linear_deceleration_after;
+}
+
 /// Adds the goal if it is valid.
 void add_goal(const JsonReader& member, const WorldFrame& frame, Quota& quota, ParsedGoals& read) {
   const std::size_t before = member.fault_count();
   const JsonReader json = member.object(kGoalMembers);
   const JsonReader any_of = json.find("any_of");
   std::vector<core::Alternative> poses;
-  std::optional<core::Goal> goal;
+  std::optional<core::Goal> pose;
   if (any_of) {
     poses = parse_any_of(json, any_of, frame, quota);
-    if (!poses.empty()) goal = core::Goal{poses.front().position, poses.front().theta};
+    if (!poses.empty()) pose = core::Goal{poses.front().position, poses.front().theta};
   } else {
-    goal = parse_pose(json, frame);
+    pose = parse_pose(json, frame);
   }
+  core::Goal goal = pose.value_or(core::Goal());
   const auto service = json.find("service").number(kDuration);
   const auto not_before = json.find("not_before").number(kDuration);
-  const JsonReader due_member = json.find("due");
-  const auto due = due_member.number(kDue);
-  if (due) check_due(due_member, *due, not_before.value_or(0.0));
-  const auto radius_after = json.find("radius_after").number(kLength);
+  goal.service = service.value_or(0.0);
+  goal.not_before = not_before.value_or(0.0);
+  const JsonReader due = json.find("due");
+  goal.due = due.number(kDue);
+  if (goal.due) check_due(due, *goal.due, goal.not_before);
+  const bool has_load = parse_load(json, goal);
   GoalTexts texts{parse_metadata(json), parse_goal_actions(json),
                   poses.empty() ? std::string() : text_of_any_of(any_of)};
   const bool has_texts = !texts.empty();
-  if (!goal || member.fault_count() != before) return;
-  goal->service = service.value_or(0.0);
-  goal->not_before = not_before.value_or(0.0);
-  goal->radius_after = radius_after;
-  goal->due = due;
-  if (service || not_before || due || radius_after || has_texts) read.lists_visits = true;
+  if (!pose || member.fault_count() != before) return;
+  if (service || not_before || goal.due || has_load || has_texts) read.lists_visits = true;
   if (has_texts) {
     read.texts.resize(read.goals.size());
     read.texts.push_back(std::move(texts));
   }
   if (!poses.empty()) read.open.push_back({read.goals.size(), std::move(poses)});
-  read.goals.push_back(*goal);
+  read.goals.push_back(goal);
   read.places.push_back(member);
 }
 
@@ -133,6 +153,22 @@ ParsedGoals parse_goals(const JsonReader& robot, const WorldFrame& frame, Quota&
   read.lists_visits = true;
   for (const JsonReader item : list.items()) add_goal(item, frame, quota, read);
   return read;
+}
+
+void check_loads(const std::vector<JsonReader>& goals, const core::Robot& robot) {
+  if (robot.linear_inertia().is_limited) return;
+  // Bounded: the goals that were read.
+  for (const JsonReader& goal : goals) {
+    for (const std::string_view name : {"linear_acceleration_after", "linear_deceleration_after"}) {
+      const JsonReader member = goal.find(name);
+      if (!member) continue;
+      member.fault(fault::kOutOfRange, [&] {
+        return "The robot has no linear_acceleration, so it changes its speed at once, and a load cannot "
+               "change that; give it linear_acceleration, or leave " +
+               std::string(name) + " out.";
+      });
+    }
+  }
 }
 
 namespace {
@@ -286,7 +322,8 @@ class RobotReader {
                        .start = std::nullopt,
                        .linear_speed = traits.linear_speed.value,
                        .angular_speed = traits.angular_speed.value,
-                       .may_reverse = robot.may_reverse};
+                       .may_reverse = robot.may_reverse,
+                       .open = &read.open};
     read.start = json.require("start", "; give {\"x\", \"y\"} and optionally \"theta\"");
     if (const auto start = parse_pose(read.start.object(kStartMembers), frame_)) {
       robot.start = {start->position, start->theta.value_or(0.0)};
@@ -303,6 +340,7 @@ class RobotReader {
  private:
   void read_goals(const JsonReader& json, ParsedRobot& read) {
     ParsedGoals goals = parse_goals(json, frame_, goals_);
+    check_loads(goals.places, read.robot);
     read.goals = std::move(goals.places);
     read.lists_visits = goals.lists_visits;
     read.goal_texts = std::move(goals.texts);

@@ -47,6 +47,10 @@ inline constexpr std::size_t kMostPoses = 100;
 /// the goals of the request, and the poses of `any_of`.
 ParsedGoals parse_goals(const JsonReader& robot, const WorldFrame& frame, Quota& quota);
 
+/// Loads change the accelerations of robots that have some; of others, they are faults. `goals`: the places
+/// of the goals of the robot.
+void check_loads(const std::vector<JsonReader>& goals, const core::Robot& robot);
+
 /// What a robot does that has no goal, or has served its last one.
 enum class Idle : std::uint8_t { stay, yield, come_back };
 

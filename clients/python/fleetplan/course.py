@@ -9,11 +9,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from fleetplan.types import Action, ActionPlace, ActionProgress, Goal, PlanRequest, Pose, Robot
+from fleetplan.types import Action, ActionPlace, ActionProgress, Goal, PlanRequest, Pose, Robot, Visit
 
 Place: TypeAlias = float
 
 _STEERED = 0.05  # radians: a turn for which a robot under way need not stop, as plans from measured poses have them
+_SAME_TIME = 1e-6  # seconds: rounding of times
 _ON_PLACE = 1e-9  # of whole progress, metres, radians or seconds: rounding
 
 
@@ -58,6 +59,41 @@ def limits_of(request: PlanRequest, robot: Robot) -> Limits:
     return Limits(*(math.inf if limit is None else limit for limit in (rise, fall, turn)))
 
 
+def limits_by_action(request: PlanRequest, robot: Robot, actions: Sequence[Action],
+                     visits: Sequence[Visit] | None) -> list[Limits]:
+    """The limits of a robot in each of its actions: goals change them from the end of the service there on. `visits`:
+    those of the plan; None: they are what the waits of the actions say."""
+    limits, goals = limits_of(request, robot), goals_of(robot)
+    left = _service_ends(actions) if visits is None else [
+        (visit["t_leave"], visit["goal"]) for visit in visits
+        if visit["t_arrive"] is not None and visit["t_leave"] is not None]
+    found: list[Limits] = []
+    for action in actions:
+        while left and left[0][0] <= action["t_start"] + _SAME_TIME:
+            _, goal = left.pop(0)
+            limits = _after(limits, goals[goal]) if goal < len(goals) else limits
+        found.append(limits)
+    return found
+
+
+def _service_ends(actions: Sequence[Action]) -> list[tuple[float, int]]:
+    """When services end, and at which goals."""
+    return [(action["t_end"], action["goal"]) for action, after in zip(actions, [*actions[1:], None])
+            if "goal" in action and (after is None or after.get("goal") != action["goal"])]
+
+
+def _after(limits: Limits, goal: Goal) -> Limits:
+    """The limits after a goal, of a robot that has some: a deceleration that is not given follows the acceleration."""
+    rise = goal.get("linear_acceleration_after", limits.rise)
+    fall = goal.get("linear_deceleration_after", goal.get("linear_acceleration_after", limits.fall))
+    return Limits(rise, fall, limits.turn)
+
+
+def goals_of(robot: Robot) -> list[Goal]:
+    """The goals of a robot of a request, however they are given."""
+    return robot["goals"] if "goals" in robot else [robot["goal"]] if "goal" in robot else []
+
+
 @dataclass(frozen=True)
 class _Purpose:
     """What a wait is for. The rest of it gives way to others."""
@@ -71,10 +107,11 @@ class Course:
     """The actions of one robot."""
 
     def __init__(self, start: Pose, actions: Sequence[Action], goals: Sequence[Goal] = (),
-                 wait_before_move: float = 0.0, limits: Limits = Limits()) -> None:
-        """`goals`: those of the request, which the waits of the plan number. `limits`: of the robot."""
+                 wait_before_move: float = 0.0, limits: Sequence[Limits] = ()) -> None:
+        """`goals`: those of the request, which the waits of the plan number. `limits`: of the robot, by action;
+        without, its speed changes at once."""
         self.start = start
-        self.limits = limits
+        self._limits = limits or [Limits()] * len(actions)
         self.actions = actions
         self.end = float(len(actions))
         self._amounts = [_amount(action) for action in actions]
@@ -125,6 +162,10 @@ class Course:
             share = index + 1 - place if following == index else 1.0
             left += min(self._purposes[following].service, share * self._purposes[following].least)
         return left
+
+    def deceleration(self, index: int) -> float:
+        """Metres per second squared, of the robot in an action; infinite if it stops at once."""
+        return self._limits[index].fall
 
     def planned_speed(self, index: int) -> float:
         """The greatest, metres or radians per second; 0 of a wait."""
@@ -251,7 +292,7 @@ class Course:
         if "profile" not in action or amount <= 0.0:
             return seconds / duration
         profile = action["profile"]
-        rise, fall = self.limits.of(action)
+        rise, fall = self._limits[index].of(action)
         rises = min(seconds, (profile["cruise"] - profile["start"]) / rise)
         falls = max(0.0, seconds - (duration - (profile["cruise"] - profile["end"]) / fall))
         covered = profile["cruise"] * max(0.0, seconds - rises - falls)
@@ -270,7 +311,7 @@ class Course:
         if "profile" not in action:
             return share * duration
         profile, covered = action["profile"], share * self._amounts[index]
-        rise, fall = self.limits.of(action)
+        rise, fall = self._limits[index].of(action)
         start, cruise, end = profile["start"], profile["cruise"], profile["end"]
         rises, falls = (cruise - start) / rise, (cruise - end) / fall
         rising, before_fall = (start + cruise) / 2.0 * rises, self._amounts[index] - (cruise + end) / 2.0 * falls

@@ -10,9 +10,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
-from fleetplan.course import Course, Place, limits_of, whole
-from fleetplan.types import (Action, ActionProgress, AdvanceAnswer, Goal, MeasuredPose, PlanAnswer, PlanRequest,
-                             Pose, Robot, RobotState, TightPair)
+from fleetplan.course import Course, Place, goals_of, limits_by_action, whole
+from fleetplan.types import (Action, ActionProgress, AdvanceAnswer, MeasuredPose, PlanAnswer, PlanRequest,
+                             Pose, Robot, RobotState, TightPair, Visit)
 
 _REACHED = 1e-9  # of whole progress: rounding
 _SAME_TIME = 1e-9  # seconds
@@ -243,7 +243,7 @@ class Executor:
             actions = robot.get("committed", []) if plan is None else plan["actions"]
             has_goals = bool(goals_of(robot))
             self._robots[robot["id"]] = _Progress(
-                _course(request, robot, actions), has_goals, plan is not None and "ends_at" not in plan,
+                _course(request, robot, actions, plan.get("visits") if plan is not None else None), has_goals, plan is not None and "ends_at" not in plan,
                 plan is not None and not has_goals and robot.get("idle", "stay") != "stay",
                 _execution_margin(request, robot), counted=begin, stays=robot["id"] in invalid)
         for dependency in dependencies:
@@ -366,7 +366,7 @@ class Executor:
         of_robots, report, course = self._deceleration, self._robots[robot].report, self._robots[robot].course
         index = course.index(place + _REACHED)
         planned, given = course.planned_speed(index), of_robots.get(robot) if isinstance(of_robots, Mapping) else of_robots
-        deceleration = course.limits.fall if given is None else given
+        deceleration = course.deceleration(index) if given is None else given
         if math.isinf(deceleration) or course.actions[index]["type"] != "translate":
             return planned
         speed = abs(report.speed) if report is not None and report.speed is not None else 0.0
@@ -393,21 +393,17 @@ class Executor:
         return state
 
 
-def goals_of(robot: Robot) -> list[Goal]:
-    """The goals of a robot of a request, however they are given."""
-    return robot["goals"] if "goals" in robot else [robot["goal"]] if "goal" in robot else []
-
-
 def _execution_margin(request: PlanRequest, robot: Robot) -> float:
     of_all = request.get("options", {}).get("execution_margin", 0.0)
     return robot.get("execution_margin", request.get("robot_defaults", {}).get("execution_margin", of_all))
 
 
-def _course(request: PlanRequest, robot: Robot, actions: list[Action]) -> Course:
+def _course(request: PlanRequest, robot: Robot, actions: list[Action],
+            visits: list[Visit] | None = None) -> Course:
     start = robot["start"]
     pose: Pose = {"x": start["x"], "y": start["y"], "theta": start.get("theta", 0.0)}
     return Course(pose, actions, goals_of(robot), request.get("options", {}).get("wait_before_move", 0.0),
-                  limits_of(request, robot))
+                  limits_by_action(request, robot, actions, visits))
 
 
 def _braking_speed(room: float, speed: float, deceleration: float, reaction: float) -> float:

@@ -198,6 +198,9 @@ class GoalDetails(TypedDict, total=False):
     not_before: float
     due: float
     radius_after: float
+    linear_speed_after: float
+    linear_acceleration_after: float
+    linear_deceleration_after: float
     actions: list[GoalAction]
     metadata: Metadata
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/geometry/angle.h"
+#include "core/verify/execution.h"
 #include "core/verify/rules/plan_rules.h"
 
 namespace fleetplan::core {
@@ -58,7 +59,7 @@ bool goes_on_straight(const Action& before, const Action& action, const Toleranc
 class MotionCheck {
  public:
   MotionCheck(const Robot& robot, const RobotPlan& plan, const Tolerance& tolerance)
-      : robot_(robot), plan_(plan), tolerance_(tolerance) {}
+      : robot_(robot), plan_(plan), tolerance_(tolerance), carried_(carried_by(robot, &plan, tolerance)) {}
 
   ViolationList run(std::size_t given, const StopCondition& stop) {
     for (std::size_t k = given; k < plan_.actions.size(); ++k) {
@@ -74,6 +75,10 @@ class MotionCheck {
   }
 
  private:
+  const Carried& carried_during(const Action& action) const {
+    return carried_at(carried_, action.t_start, tolerance_.seconds);
+  }
+
   bool differ(double a, double b) const { return std::abs(a - b) > tolerance_.seconds; }
 
   void report(Kind kind, double t, double distance, double required, const std::string& detail) {
@@ -134,8 +139,8 @@ class MotionCheck {
   void check_speed(std::size_t k) {
     const Action& action = plan_.actions[k];
     if (action.type == Action::Type::translate) {
-      check_duration(k, distance_between(action.from, action.to), robot_.linear_speed, tolerance_.metres,
-                     "m/s");
+      check_duration(k, distance_between(action.from, action.to), carried_during(action).linear_speed,
+                     tolerance_.metres, "m/s");
       check_direction(k);
     } else if (action.type == Action::Type::rotate) {
       check_duration(k, turn_between(action.from, action.to), robot_.angular_speed, tolerance_.radians,
@@ -172,8 +177,9 @@ class MotionCheck {
     const double amount =
         turns ? turn_between(action.from, action.to) : distance_between(action.from, action.to);
     const double tolerance = turns ? tolerance_.radians : tolerance_.metres;
-    const double gain = turns ? robot_.angular_acceleration : robot_.linear_acceleration;
-    const double loss = turns ? robot_.angular_acceleration : robot_.linear_deceleration;
+    const Carried& carried = carried_during(action);
+    const double gain = turns ? robot_.angular_acceleration : carried.linear_acceleration;
+    const double loss = turns ? robot_.angular_acceleration : carried.linear_deceleration;
     const bool is_limited = std::isfinite(gain) || std::isfinite(loss);
     if (!action.profile) {
       if (is_limited && amount > tolerance) {
@@ -183,7 +189,7 @@ class MotionCheck {
       return;
     }
     const SpeedProfile& profile = *action.profile;
-    const double top_speed = turns ? robot_.angular_speed : robot_.linear_speed;
+    const double top_speed = turns ? robot_.angular_speed : carried.linear_speed;
     const auto fault = [&](double value, double required, const std::string& what) {
       report(Kind::profile, action.t_start, value, required, action_name(k) + " has a profile " + what);
     };
@@ -280,6 +286,7 @@ class MotionCheck {
   const Robot& robot_;
   const RobotPlan& plan_;
   Tolerance tolerance_;
+  std::vector<Carried> carried_;
   ViolationList violations_;
 };
 

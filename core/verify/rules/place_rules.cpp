@@ -140,11 +140,7 @@ std::string blocked_text(const Zone& zone, double distance, double radius, doubl
 
 }  // namespace
 
-ZonesOfRobot::ZonesOfRobot(const std::vector<Zone>* zones, std::size_t index, const Robot& robot)
-    : robot_(index),
-      own_speed_(robot.linear_speed),
-      acceleration_(robot.linear_acceleration),
-      deceleration_(robot.linear_deceleration) {
+ZonesOfRobot::ZonesOfRobot(const std::vector<Zone>* zones, std::size_t index) : robot_(index) {
   if (zones == nullptr) return;
   for (std::size_t k = 0; k < zones->size(); ++k) {
     const Zone& zone = (*zones)[k];
@@ -241,7 +237,8 @@ ViolationList ZonesOfRobot::check_blocked(const std::vector<double>& radii, cons
   return violations;
 }
 
-ViolationList ZonesOfRobot::check_driving(const std::vector<Action>& actions, const Tolerance& tolerance,
+ViolationList ZonesOfRobot::check_driving(const std::vector<Action>& actions,
+                                          const std::vector<Carried>& carried, const Tolerance& tolerance,
                                           const StopCondition& stop) const {
   ViolationList violations;
   for (std::size_t k = 0; k < actions.size(); ++k) {
@@ -250,9 +247,13 @@ ViolationList ZonesOfRobot::check_driving(const std::vector<Action>& actions, co
       const Action& action = actions[k];
       if (in.zone->type == Zone::Type::blocked) continue;
       if (nearest_to_rectangle(action.from.position, action.to.position, in.box).distance > 0.0) continue;
-      auto found = action.type == Action::Type::translate ? check_translation(in, action, k, tolerance, stop)
-                   : action.type == Action::Type::rotate  ? check_rotation(in, action, k, tolerance)
-                                                          : std::nullopt;
+      std::optional<Violation> found;
+      if (action.type == Action::Type::translate) {
+        const Carried& robot = carried_at(carried, action.t_start, tolerance.seconds);
+        found = check_translation(in, action, k, robot, tolerance, stop);
+      } else if (action.type == Action::Type::rotate) {
+        found = check_rotation(in, action, k, tolerance);
+      }
       if (found) violations.add(std::move(*found));
     }
   }
@@ -262,7 +263,8 @@ ViolationList ZonesOfRobot::check_driving(const std::vector<Action>& actions, co
 /// Reports a translation that breaks the rule of a zone. The time that is missing is measured over the part
 /// inside the zone, as that of whole actions is.
 std::optional<Violation> ZonesOfRobot::check_translation(const ZoneBox& in, const Action& action,
-                                                         std::size_t number, const Tolerance& tolerance,
+                                                         std::size_t number, const Carried& robot,
+                                                         const Tolerance& tolerance,
                                                          const StopCondition& stop) const {
   const Position way = action.to.position - action.from.position;
   const double length = way.norm();
@@ -281,14 +283,15 @@ std::optional<Violation> ZonesOfRobot::check_translation(const ZoneBox& in, cons
                         in.zone->id + "\", which allows " + radians(in.zone->half_angle));
     }
     const double share = stretch.last - stretch.first;
-    const double limit = in.zone->linear_speed_for(own_speed_);
+    const double limit = in.zone->linear_speed_for(robot.linear_speed);
     if (action.profile) {
       // Where it is within the tolerance of the border, it need not be at the limit yet.
       const SpeedProfile& profile = *action.profile;
-      const double gained =
-          profile.start * profile.start + 2.0 * acceleration_ * (stretch.last * length - tolerance.metres);
-      const double to_lose = profile.end * profile.end +
-                             2.0 * deceleration_ * ((1.0 - stretch.first) * length - tolerance.metres);
+      const double gained = profile.start * profile.start +
+                            2.0 * robot.linear_acceleration * (stretch.last * length - tolerance.metres);
+      const double to_lose =
+          profile.end * profile.end +
+          2.0 * robot.linear_deceleration * ((1.0 - stretch.first) * length - tolerance.metres);
       const double square = std::min({profile.cruise * profile.cruise, gained, to_lose});
       const double speed = std::sqrt(std::max(0.0, square));
       if (speed <= limit + tolerance.metres) continue;

@@ -42,7 +42,7 @@ class ZonesOfRobot {
  public:
   /// The zones of the robot with this index. `zones`: null if there are none; otherwise they outlive this
   /// object.
-  ZonesOfRobot(const std::vector<Zone>* zones, std::size_t index, const Robot& robot);
+  ZonesOfRobot(const std::vector<Zone>* zones, std::size_t index);
 
   bool empty() const { return zones_.empty(); }
   bool may_leave_any() const { return may_leave_any_; }
@@ -67,8 +67,8 @@ class ZonesOfRobot {
 
   /// Reports the actions that are faster than a speed zone allows, and those against a one-way zone. Ends
   /// early when `stop` is met.
-  ViolationList check_driving(const std::vector<Action>& actions, const Tolerance& tolerance,
-                              const StopCondition& stop) const;
+  ViolationList check_driving(const std::vector<Action>& actions, const std::vector<Carried>& carried,
+                              const Tolerance& tolerance, const StopCondition& stop) const;
 
  private:
   struct ZoneBox {
@@ -82,15 +82,13 @@ class ZonesOfRobot {
                                   const Departure& departure, double tolerance,
                                   const StopCondition& stop) const;
   std::optional<Violation> check_translation(const ZoneBox& in, const Action& action, std::size_t number,
-                                             const Tolerance& tolerance, const StopCondition& stop) const;
+                                             const Carried& robot, const Tolerance& tolerance,
+                                             const StopCondition& stop) const;
   std::optional<Violation> check_rotation(const ZoneBox& in, const Action& action, std::size_t number,
                                           const Tolerance& tolerance) const;
   Violation broken(const ZoneBox& in, double t, double measured, double required, std::string detail) const;
 
   std::size_t robot_;
-  double own_speed_;     // metres per second
-  double acceleration_;  // metres per second squared
-  double deceleration_;
   std::vector<ZoneBox> zones_;
   bool may_leave_any_ = false;  // of them
 };

@@ -71,6 +71,134 @@ TEST(Accelerations, AreFaultsOutsideOfTheirRanges) {
                                               {"/robots/1/angular_acceleration", "out_of_range"}}));
 }
 
+/// The robot picks a load up at the end of the corridor, and takes it back, backwards: it is at 0.5 m/s after
+/// 0.5 m, and stops in as much.
+Json haul() {
+  Json request = corridor();
+  Json& robot = request["robots"][0];
+  robot["may_reverse"] = true;
+  robot.erase("goal");
+  robot["goals"] = Json::parse(R"([
+    {"x": 18.5, "y": 0.5, "service": 2, "linear_speed_after": 0.5, "linear_acceleration_after": 0.25},
+    {"x": 0.5, "y": 0.5}])");
+  return request;
+}
+
+TEST(LoadedRobots, DriveAsTheirLoadsAllow) {
+  const Json answer = plan_of(haul());
+  const Json& actions = answer["plans"][0]["actions"];
+  ASSERT_EQ(actions.size(), 3U);
+  EXPECT_EQ(actions[0]["profile"]["cruise"], 2.0);
+  EXPECT_EQ(actions[2]["profile"]["cruise"], 0.5);
+  // 12 s there, the service, and 18 m at 0.5 m/s with half of the 2 s and 2 s in which it starts and stops.
+  EXPECT_NEAR(actions[2]["t_end"], 12.0 + 2.0 + 36.0 + 1.0 + 1.0, 1e-9);
+  EXPECT_EQ(answer["lower_bound"]["flowtime"], answer["flowtime"]);
+  EXPECT_EQ(answer["verified"], true);
+  ASSERT_EQ(answer["plans"][0]["visits"].size(), 2U);
+  Json brakes_longer = haul();
+  brakes_longer["robots"][0]["goals"][0]["linear_deceleration_after"] = 0.125;
+  EXPECT_NEAR(plan_of(brakes_longer)["flowtime"], 53.0, 1e-9);
+}
+
+TEST(LoadedRobots, AreSlowWithoutAccelerationsToo) {
+  Json request = haul();
+  for (const char* member : {"linear_acceleration", "linear_deceleration"})
+    request["robots"][0].erase(member);
+  request["robots"][0]["goals"][0].erase("linear_acceleration_after");
+  EXPECT_NEAR(plan_of(request)["flowtime"], 9.0 + 2.0 + 36.0, 1e-9);
+}
+
+TEST(LoadedRobots, NeedNotSlowDownInZonesThatAreFasterThanThey) {
+  Json request = haul();
+  request["zones"] = Json::parse(R"([{"id": "bay", "type": "speed", "linear_speed": 1,
+    "polygon": [{"x": 8.5, "y": 0}, {"x": 10.5, "y": 0}, {"x": 10.5, "y": 2}, {"x": 8.5, "y": 2}]}])");
+  const Json answer = plan_of(request);
+  EXPECT_EQ(answer["verified"], true);
+  const Json& actions = answer["plans"][0]["actions"];
+  ASSERT_EQ(actions.size(), 5U);
+  EXPECT_EQ(actions[1]["profile"]["cruise"], 1.0);
+  EXPECT_EQ(actions[4]["profile"]["cruise"], 0.5);
+  EXPECT_EQ(verdict_on(request, answer["plans"])["valid"], true);
+}
+
+TEST(LoadedRobots, AreCheckedWithTheirLoads) {
+  Json without = haul();
+  for (const char* member : {"linear_speed_after", "linear_acceleration_after"})
+    without["robots"][0]["goals"][0].erase(member);
+  const Json plans = plan_of(without)["plans"];
+  EXPECT_EQ(verdict_on(without, plans)["valid"], true);
+  const auto kinds_of = [](const Json& verdict) {
+    std::vector<std::string> kinds;
+    for (const Json& violation : verdict["violations"]) kinds.push_back(violation["kind"]);
+    return kinds;
+  };
+  EXPECT_THAT(kinds_of(verdict_on(haul(), plans)), testing::Contains("speed"));
+  Json slow = haul();
+  slow["robots"][0]["goals"][0].erase("linear_speed_after");
+  EXPECT_THAT(kinds_of(verdict_on(slow, plans)), testing::ElementsAre("profile")) << "other accelerations";
+}
+
+TEST(LoadedRobots, KeepTheirLoadsLater) {
+  const Json request = haul();
+  const Json plan = plan_of(request);
+  const Json before = advanced(request, plan, 5.0)["robots"][0];
+  EXPECT_EQ(before["linear_speed"], 2.0);
+  EXPECT_EQ(before["goals"], request["robots"][0]["goals"]);
+  const Json next = advanced(request, plan, 20.0);
+  const Json& loaded = next["robots"][0];
+  EXPECT_EQ(loaded["linear_speed"], 0.5);
+  EXPECT_EQ(loaded["linear_acceleration"], 0.25);
+  EXPECT_EQ(loaded["linear_deceleration"], 0.25);
+  EXPECT_EQ(loaded["goals"], Json::array({request["robots"][0]["goals"][1]}));
+  EXPECT_EQ(loaded["start"]["speed"], -0.5);
+  EXPECT_NEAR(plan_of(next)["flowtime"], 32.0, 1e-9);
+}
+
+TEST(LoadedRobots, ArePlannedAheadOfTheirLoads) {
+  for (const bool is_open : {false, true}) {
+    Json request = haul();
+    if (is_open) {
+      Json& goal = request["robots"][0]["goals"][0];
+      goal["any_of"] = Json::parse(R"([{"x": 15.5, "y": 1.5, "bias": 100}, {"x": 18.5, "y": 0.5}])");
+      goal.erase("x");
+      goal.erase("y");
+    }
+    const Json plan = plan_of(request);
+    ASSERT_NEAR(plan["flowtime"], 52.0, 1e-9);
+    Json next = advanced(request, plan, 5.0, {{"commit", 30.0}});
+    EXPECT_EQ(next["robots"][0]["committed"].size(), 3U) << "into the way with the load";
+    EXPECT_EQ(plan_of(next)["status"], "solved");
+    Json body = request;
+    body["plans"] = plan["plans"];
+    body["policy"] = "open_loop";
+    body["runs"] = 1;
+    EXPECT_NEAR(answer_of(simulate_endpoint, body)["flowtime"]["mean"], 52.0, 1e-6);
+  }
+}
+
+TEST(LoadedRobots, HaveAccelerationsOnlyIfTheyAreLimited) {
+  Json request = haul();
+  for (const char* member : {"linear_acceleration", "linear_deceleration"})
+    request["robots"][0].erase(member);
+  EXPECT_EQ(brief_faults_of(request),
+            (Faults{{"/robots/0/goals/0/linear_acceleration_after", "out_of_range"}}));
+  Json wrong = haul();
+  wrong["robots"][0]["goals"][0]["linear_speed_after"] = 0.0;
+  wrong["robots"][0]["goals"][0]["linear_acceleration_after"] = "slow";
+  wrong["robots"][0]["goals"][1]["linear_deceleration_after"] = -1;
+  EXPECT_EQ(brief_faults_of(wrong),
+            (Faults{{"/robots/0/goals/0/linear_speed_after", "out_of_range"},
+                    {"/robots/0/goals/0/linear_acceleration_after", "wrong_type"},
+                    {"/robots/0/goals/1/linear_deceleration_after", "out_of_range"}}));
+}
+
+TEST(LoadedRobots, GetNewGoalsOnTheSameTerms) {
+  Json request = haul();
+  const Json plan = plan_of(request);
+  const Json goals = Json::array({{{"robot", "a"}, {"goals", request["robots"][0]["goals"]}}});
+  EXPECT_EQ(advanced(request, plan, 20.0, {{"goals", goals}})["robots"][0]["linear_speed"], 0.5);
+}
+
 TEST(Profiles, ThatDoNotFitAreViolations) {
   const Json request = request_with_inertia();
   const Json answer = plan_of(request);

@@ -34,7 +34,8 @@ Json fleet() {
        "metadata": {"make": "x"}},
       {"id": "heavy", "start": {"x": 1.5, "y": 6.5, "theta": 0.0}, "linear_acceleration": 0.5,
        "linear_deceleration": 0.5, "angular_acceleration": 2.0, "goal_age": 3.0, "weight": 2.0,
-       "goals": [{"x": 6.5, "y": 6.5}, {"x": 11.5, "y": 6.5, "theta": 1.0}]},
+       "goals": [{"x": 6.5, "y": 6.5, "linear_speed_after": 0.5, "linear_acceleration_after": 0.25,
+                  "linear_deceleration_after": 0.5}, {"x": 11.5, "y": 6.5, "theta": 1.0}]},
       {"id": "returning", "start": {"x": 4.5, "y": 3.5, "theta": 0.0}, "idle": "return",
        "goal": {"any_of": [{"x": 10.5, "y": 3.5}, {"x": 10.5, "y": 5.5}]}}],
     "zones": [

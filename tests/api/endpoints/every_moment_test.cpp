@@ -32,7 +32,7 @@ Json everything() {
     "robot_defaults": {"radius": 0.3, "linear_speed": 1.0, "angular_speed": 2.0},
     "robots": [
       {"id": "a", "start": {"x": 0.5, "y": 0.5}, "vicinity": 0.05, "may_reverse": true, "goals": [
-        {"x": 3.5, "y": 1.5, "service": 1, "radius_after": 0.4, "metadata": {"order": 7}},
+        {"x": 3.5, "y": 1.5, "service": 1, "radius_after": 0.4, "linear_speed_after": 0.5, "metadata": {"order": 7}},
         {"x": 9.5, "y": 6.5, "not_before": 5, "radius_after": 0.3}]},
       {"id": "b", "start": {"x": 9.5, "y": 6.5, "theta": 3}, "goal": {"x": 1.5, "y": 6.5, "theta": 1}},
       {"id": "c", "start": {"x": 1.5, "y": 6.5}, "goal": {"x": 0.5, "y": 0.5}},

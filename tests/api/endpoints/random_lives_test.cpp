@@ -67,18 +67,6 @@ void add_stop_distances(Dice& dice, Json& json) {
   }
 }
 
-/// Robots that need time to start and to stop.
-void add_accelerations(Dice& dice, Json& json) {
-  for (Json& robot : json.at("robots")) {
-    const double speed = robot.at("linear_speed").get<double>();
-    if (dice.chance(0.7)) {
-      robot["linear_acceleration"] = speed * std::pow(10.0, dice.between(-1.0, 1.0));
-      if (dice.chance(0.5)) robot["linear_deceleration"] = speed * std::pow(10.0, dice.between(-1.0, 1.0));
-    }
-    if (dice.chance(0.5)) robot["angular_acceleration"] = std::pow(10.0, dice.between(-1.0, 2.0));
-  }
-}
-
 /// The goals of a robot, however they are given.
 std::vector<Json*> goals_of(Json& robot) {
   std::vector<Json*> goals;
@@ -86,6 +74,24 @@ std::vector<Json*> goals_of(Json& robot) {
   if (!robot.contains("goals")) return goals;
   for (Json& goal : robot["goals"]) goals.push_back(&goal);
   return goals;
+}
+
+/// Robots that need time to start and to stop; some loads change that.
+void add_accelerations(Dice& dice, Json& json) {
+  for (Json& robot : json.at("robots")) {
+    const double speed = robot.at("linear_speed").get<double>();
+    const auto acceleration = [&] { return speed * std::pow(10.0, dice.between(-1.0, 1.0)); };
+    if (dice.chance(0.7)) {
+      robot["linear_acceleration"] = acceleration();
+      if (dice.chance(0.5)) robot["linear_deceleration"] = acceleration();
+      const bool has_loads = dice.chance(0.4);
+      for (Json* goal : goals_of(robot)) {
+        if (has_loads && dice.chance(0.5)) (*goal)["linear_acceleration_after"] = acceleration();
+        if (has_loads && dice.chance(0.3)) (*goal)["linear_deceleration_after"] = acceleration();
+      }
+    }
+    if (dice.chance(0.5)) robot["angular_acceleration"] = std::pow(10.0, dice.between(-1.0, 2.0));
+  }
 }
 
 /// Some goals may be served where others have goals, too. Robots that stay at their last goals can do so at

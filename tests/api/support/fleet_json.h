@@ -28,6 +28,9 @@ inline Json json_of(const core::Goal& goal) {
   if (goal.service > 0.0) json["service"] = goal.service;
   if (goal.not_before > 0.0) json["not_before"] = goal.not_before;
   if (goal.radius_after) json["radius_after"] = *goal.radius_after;
+  if (goal.linear_speed_after) json["linear_speed_after"] = *goal.linear_speed_after;
+  if (goal.linear_acceleration_after) json["linear_acceleration_after"] = *goal.linear_acceleration_after;
+  if (goal.linear_deceleration_after) json["linear_deceleration_after"] = *goal.linear_deceleration_after;
   return json;
 }
 

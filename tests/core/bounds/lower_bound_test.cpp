@@ -18,25 +18,32 @@ namespace TEST_FILE {
 using support::robot_at;
 
 constexpr double kPi = std::numbers::pi;
-constexpr Motion kMotion{0.4, 2.0, 0.5, 0.0};
+
+/// Of a robot with 2 m/s and 0.5 rad/s.
+double bound_of(Robot robot, double wait_before_move = 0.0) {
+  robot.linear_speed = 2.0;
+  robot.angular_speed = 0.5;
+  PlanOptions options;
+  options.wait_before_move = wait_before_move;
+  return lower_bound(robot, options);
+}
 
 TEST(LowerBound, IsTheStraightLineWithTheRotationsBeforeAndAfterIt) {
   const double slope = std::atan2(4.0, 3.0);
-  EXPECT_DOUBLE_EQ(lower_bound(robot_at(1, 1).to(4, 5), kMotion), 2.5 + 2.0 * slope);
-  EXPECT_DOUBLE_EQ(lower_bound(robot_at(1, 1).to(4, 5, 0.0), kMotion), 2.5 + 4.0 * slope);
-  EXPECT_DOUBLE_EQ(lower_bound(robot_at(1, 1, kPi).to(4, 1, kPi), kMotion), 1.5 + 4.0 * kPi);
-  EXPECT_DOUBLE_EQ(lower_bound(robot_at(1, 1, 3.0).to(-3, 1, -3.0), kMotion), 2.0 + 4.0 * (kPi - 3.0));
+  EXPECT_DOUBLE_EQ(bound_of(robot_at(1, 1).to(4, 5)), 2.5 + 2.0 * slope);
+  EXPECT_DOUBLE_EQ(bound_of(robot_at(1, 1).to(4, 5, 0.0)), 2.5 + 4.0 * slope);
+  EXPECT_DOUBLE_EQ(bound_of(robot_at(1, 1, kPi).to(4, 1, kPi)), 1.5 + 4.0 * kPi);
+  EXPECT_DOUBLE_EQ(bound_of(robot_at(1, 1, 3.0).to(-3, 1, -3.0)), 2.0 + 4.0 * (kPi - 3.0));
 }
 
 TEST(LowerBound, IsTheRotationForARobotAtItsGoal) {
-  EXPECT_EQ(lower_bound(robot_at(1, 1, 2.0).to(1, 1), kMotion), 0.0);
-  EXPECT_DOUBLE_EQ(lower_bound(robot_at(1, 1, 2.0).to(1, 1, 1.0), kMotion), 2.0);
+  EXPECT_EQ(bound_of(robot_at(1, 1, 2.0).to(1, 1)), 0.0);
+  EXPECT_DOUBLE_EQ(bound_of(robot_at(1, 1, 2.0).to(1, 1, 1.0)), 2.0);
 }
 
 TEST(LowerBound, AddsOneWaitBeforeTheMove) {
-  const Motion motion{0.4, 2.0, 0.5, 1.5};
-  EXPECT_DOUBLE_EQ(lower_bound(robot_at(1, 1).to(5, 1), motion), 3.5);
-  EXPECT_EQ(lower_bound(robot_at(1, 1).to(1, 1), motion), 0.0) << "no move, no wait";
+  EXPECT_DOUBLE_EQ(bound_of(robot_at(1, 1).to(5, 1), 1.5), 3.5);
+  EXPECT_EQ(bound_of(robot_at(1, 1).to(1, 1), 1.5), 0.0) << "no move, no wait";
 }
 
 class LowerBoundOfRandomProblems : public testing::TestWithParam<bool> {};
@@ -56,7 +63,7 @@ TEST_P(LowerBoundOfRandomProblems, NeverExceedsTheCostOfTheRobotAloneAndIsExactI
     if (!robot.goal) continue;
     const auto found = p.state.plan(0, {kForever, 0.0}, p.never).trajectory;
     if (!found) continue;
-    const double bound = lower_bound(robot, p.instance.motion(0));
+    const double bound = lower_bound(robot, p.instance.options());
     ASSERT_GE(found->cost, bound - 1e-8);
     const bool seen =
         p.instance.sight().may_sweep(robot.start.position, robot.goal->position, p.instance.motion(0).radius);
@@ -72,18 +79,29 @@ TEST_P(LowerBoundOfRandomProblems, NeverExceedsTheCostOfTheRobotAloneAndIsExactI
 TEST(LowerBound, AddsLegsServicesAndWaiting) {
   Robot robot = robot_at(1, 1).to(1, 5);
   robot.via = {{{5, 1}, {}, 3.0}, {{5, 5}, kPi / 2, 1.0, 20.0}};
-  EXPECT_DOUBLE_EQ(lower_bound(robot, kMotion), 20.0 + 1.0 + kPi + 2.0)
+  EXPECT_DOUBLE_EQ(bound_of(robot), 20.0 + 1.0 + kPi + 2.0)
       << "from (5, 5) on: the service at 20 s, a quarter turn, and 4 m";
   robot.via[1].not_before = 0.0;
-  EXPECT_DOUBLE_EQ(lower_bound(robot, kMotion), 2.0 + 3.0 + 2.0 + 1.0 + kPi + 2.0)
+  EXPECT_DOUBLE_EQ(bound_of(robot), 2.0 + 3.0 + 2.0 + 1.0 + kPi + 2.0)
       << "the heading at the first goal is free";
+}
+
+TEST(LowerBound, DrivesEachLegWithTheLoadThatItHasThere) {
+  Robot robot = robot_at(1, 1).to(9, 1);
+  robot.via = {{{5, 1}, {}, 1.0}};
+  robot.via[0].linear_speed_after = 0.5;
+  EXPECT_DOUBLE_EQ(bound_of(robot), 4.0 / 2.0 + 1.0 + 4.0 / 0.5);
+  robot.linear_acceleration = robot.linear_deceleration = 1.0;
+  robot.via[0].linear_acceleration_after = 0.25;
+  EXPECT_DOUBLE_EQ(bound_of(robot), (4.0 / 2.0 + 2.0) + 1.0 + (4.0 / 0.5 + 2.0))
+      << "and needs time to start and stop";
 }
 
 TEST(LowerBound, CountsOnlyWhatIsLeftOfAServiceUnderWay) {
   Robot robot = robot_at(1, 1).to(5, 1);
   robot.via = {{{1, 1}, {}, 3.0}};
   robot.committed = {{Action::Type::wait, 0.0, 2.0, robot.start, robot.start, 0}};
-  EXPECT_DOUBLE_EQ(lower_bound(robot, kMotion), 3.0 + 2.0);
+  EXPECT_DOUBLE_EQ(bound_of(robot), 3.0 + 2.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(AnyAngle, LowerBoundOfRandomProblems, testing::Bool());

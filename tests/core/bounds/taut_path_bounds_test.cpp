@@ -37,7 +37,7 @@ double bound_of(const Problem& problem, const PlanOptions& options = {}, double 
 
 double straight_bound_of(const Problem& problem) {
   const Instance instance(problem, {}, StopCondition::never());
-  return lower_bound(instance.robot(0), instance.motion(0));
+  return lower_bound(instance.robot(0), instance.options());
 }
 
 std::optional<double> cost_alone(const Problem& problem, const PlanOptions& options = {}) {
@@ -245,7 +245,7 @@ TEST_P(TautPathBoundsOfRandomProblems, AreBetweenTheStraightLineAndTheCostOfTheR
     if (!cost) continue;
     const double bound = bound_of(*problem, options);
     const Instance instance(*problem, options, StopCondition::never());
-    const double straight = lower_bound(instance.robot(0), instance.motion(0));
+    const double straight = lower_bound(instance.robot(0), instance.options());
     ASSERT_LE(bound, *cost * (1.0 + 1e-12) + 1e-9);
     ASSERT_GE(bound, straight);
     ASSERT_DOUBLE_EQ(bound_of(*problem, options, *cost), bound) << "with the cost known";
@@ -319,7 +319,7 @@ TEST(TautPathBounds, AreStraightLinesAndReportedAsCutOffWhenStopped) {
   const Instance instance(problem, {}, StopCondition::never());
   const TautPathBounds bounds(instance, {0, 1}, {kForever, kForever}, met());
   EXPECT_TRUE(bounds.cut_off());
-  EXPECT_EQ(bounds[0], lower_bound(instance.robot(0), instance.motion(0)));
+  EXPECT_EQ(bounds[0], lower_bound(instance.robot(0), instance.options()));
   EXPECT_FALSE(TautPathBounds(instance, {1}, {kForever, kForever}, met()).cut_off())
       << "its goal is in sight";
 }
@@ -358,7 +358,7 @@ TEST(TautPathBounds, TakeLimitedWorkForManyRobotsOnALargeMapWithManyCorners) {
                                   1'000'000'000, StopCondition::never())
                              .seconds;
     EXPECT_LT(bounds[robot], whole - 1e-3);
-    EXPECT_GE(bounds[robot], lower_bound(instance.robot(robot), instance.motion(robot)));
+    EXPECT_GE(bounds[robot], lower_bound(instance.robot(robot), instance.options()));
   }
 }
 
@@ -391,7 +391,7 @@ TEST(TautPathBounds, BeginAfterTheCommittedActions) {
 TEST(TautPathSearch, ReturnsHigherBoundsAfterMoreWork) {
   const Problem problem = make_problem(maze(), {robot_at(1.5, 0.5).to(1.5, 8.5)});
   const Instance instance(problem, {}, StopCondition::never());
-  double before = lower_bound(instance.robot(0), instance.motion(0));
+  double before = lower_bound(instance.robot(0), instance.options());
   const double first = before;
   for (const std::int64_t work : {0, 400, 1200, 1000000}) {
     CornerVisibility corners(problem.grid(), instance.motion(0).radius, instance.motion(0).radius,

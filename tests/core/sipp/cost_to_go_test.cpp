@@ -104,7 +104,7 @@ TEST(CostToGo, IsAtLeastLowerBoundOnRandomProblems) {
     if (!robot.goal || (robot.goal->position - robot.start.position).norm() < 1e-6) continue;
     const auto estimate = from_start(p);
     const double turn = p.instance.motion(0).rotation_time(robot.start.theta, estimate.heading);
-    const double bound = lower_bound(robot, p.instance.motion(0));
+    const double bound = lower_bound(robot, p.instance.options());
     ASSERT_GE(estimate.seconds + turn, bound - 1e-8);
     if (estimate.straight) {
       ASSERT_NEAR(estimate.seconds + turn, bound, 1e-8);

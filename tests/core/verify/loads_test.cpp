@@ -60,6 +60,17 @@ TEST(LoadRules, ARobotThatHasPutItsLoadDownNeedsLess) {
   EXPECT_THAT(kinds_of(early.violations()), ElementsAre(Kind::robot_collision));
 }
 
+TEST(LoadRules, ALoadedRobotIsNoFasterThanItsLoadAllows) {
+  Scene scene = carrying(0.5);
+  scene.robots()[0].via[0].linear_speed_after = 2.0;
+  EXPECT_THAT(scene.violations(), IsEmpty()) << "it may be faster, and is not";
+  scene.robots()[0].via[0].linear_speed_after = 0.9;
+  const auto violations = scene.violations();
+  ASSERT_THAT(kinds_of(violations), ElementsAre(Kind::speed));
+  EXPECT_NEAR(violations[0].t, 8.0, 1e-9) << "before the service it was as fast as it may be";
+  EXPECT_DOUBLE_EQ(violations[0].required, 0.9);
+}
+
 TEST(LoadRules, ALoadHasToFitBetweenWalls) {
   Scene scene;
   Robot robot = robot_at(2, 0.6);

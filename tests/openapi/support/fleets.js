@@ -66,7 +66,7 @@ function traitsOf(document, { resolution = 1 }) {
 function errandsOf({ resolution = 1 }) {
   const radius = within(0.05, 0.5).map((share) => share * resolution);
   const stays = members([], { service: within(0, 5), not_before: within(0, 20), metadata: METADATA });
-  const loads = members([], { service: within(0, 5), radius_after: radius });
+  const loads = members([], { service: within(0, 5), radius_after: radius, linear_speed_after: within(0.2, 3) });
   return mostly(mostly(fc.constant({}), stays), loads);
 }
 

@@ -5,14 +5,16 @@ const TURN = 2 * Math.PI;
 /** The pose at t of a robot that starts at `start` and follows `actions`. */
 export function expectedPose(start, actions, t, robot = {}) {
   let pose = { x: start.x, y: start.y, theta: start.theta ?? 0 };
+  let loaded = robot;
   for (const action of actions) {
     const { type, t_start, t_end, from, to } = action;
     if (t >= t_end) {
       pose = to;
+      if (action.goal !== undefined) loaded = loadedAfter(loaded, robot.goals?.[action.goal]);
       continue;
     }
     if (t < t_start) break;
-    const share = action.profile ? integrated(action, t, robot) : (t - t_start) / (t_end - t_start);
+    const share = action.profile ? integrated(action, t, loaded) : (t - t_start) / (t_end - t_start);
     if (type === "translate") {
       return { x: from.x + share * (to.x - from.x), y: from.y + share * (to.y - from.y), theta: from.theta };
     }
@@ -21,6 +23,17 @@ export function expectedPose(start, actions, t, robot = {}) {
     return from;
   }
   return pose;
+}
+
+/** A robot after the service at a goal that changes its accelerations. */
+function loadedAfter(robot, goal) {
+  const gain = goal?.linear_acceleration_after;
+  const loss = goal?.linear_deceleration_after ?? gain;
+  return {
+    ...robot,
+    linear_acceleration: gain ?? robot.linear_acceleration,
+    linear_deceleration: loss ?? robot.linear_deceleration,
+  };
 }
 
 /** The share of an action with a profile that is covered at t: the area under its speed, which is linear in parts. */

@@ -4,7 +4,14 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { motionOf } from "../../../web/model/motion.js";
-import { inertiaOf, shareAt, speedAt, timeAtShare, withChanges } from "../../../web/model/profile.js";
+import {
+  inertiaAfter,
+  inertiaOf,
+  shareAt,
+  speedAt,
+  timeAtShare,
+  withChanges,
+} from "../../../web/model/profile.js";
 import { poseAt } from "../../../web/model/timeline.js";
 
 const ROBOT = { linear_acceleration: 1, linear_deceleration: 0.5, angular_acceleration: 2 };
@@ -58,6 +65,18 @@ test("without accelerations of the robot, and without a profile, actions are as 
   assert.equal(withChanges([plain], inertiaOf(ROBOT, {}))[0], plain);
   assert.ok(Math.abs(poseAt([plain], at(0), 7).x - 9) < 1e-12);
   assert.deepEqual(inertiaOf({}, { linear_acceleration: 4 }), { rise: 0.25, fall: 0.25, turn: 0 });
+});
+
+test("a load changes how the actions after it begin and end", () => {
+  const robot = inertiaOf(ROBOT, {});
+  const loaded = inertiaAfter({ linear_acceleration_after: 0.25 }, robot);
+  assert.deepEqual(loaded, { rise: 4, fall: 4, turn: robot.turn });
+  assert.deepEqual(inertiaAfter({ linear_deceleration_after: 0.1 }, loaded), { ...loaded, fall: 10 });
+  assert.deepEqual(inertiaAfter({ radius_after: 1 }, robot), robot);
+  const second = { ...DRIVE, t_start: DRIVE.t_end, t_end: 2 * DRIVE.t_end };
+  const [before, after] = withChanges([DRIVE, second], robot, [{ t: DRIVE.t_end, inertia: loaded }]);
+  assert.deepEqual(before, withChanges([DRIVE], robot)[0]);
+  assert.equal(after.changes.rise, 8);
 });
 
 test("a rotation turns as its angular acceleration allows", () => {

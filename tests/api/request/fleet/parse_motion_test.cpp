@@ -83,7 +83,8 @@ TEST(ParseMotion, ReadsGoalsInTheirOrder) {
   Json request = swap_request();
   request["robots"][0].erase("goal");
   request["robots"][0]["goals"] = Json::parse(
-      R"([{"x": 2.5, "y": 1.5, "theta": 1.0, "service": 4, "not_before": 20, "radius_after": 0.3}, {"x": 8.5, "y": 1.5}])");
+      R"([{"x": 2.5, "y": 1.5, "theta": 1.0, "service": 4, "not_before": 20, "radius_after": 0.3,
+           "linear_speed_after": 0.7}, {"x": 8.5, "y": 1.5}])");
   request["robots"][1]["goal"]["service"] = 2;
   const PlanRequest read = parsed(request);
   const core::Robot& robot = read.problem.robots()[0];
@@ -93,6 +94,7 @@ TEST(ParseMotion, ReadsGoalsInTheirOrder) {
   EXPECT_EQ(robot.goal_at(0).service, 4.0);
   EXPECT_EQ(robot.goal_at(0).not_before, 20.0);
   EXPECT_EQ(robot.goal_at(0).radius_after, 0.3);
+  EXPECT_EQ(robot.goal_at(0).linear_speed_after, 0.7);
   EXPECT_EQ(robot.goal_at(1).radius_after, std::nullopt);
   EXPECT_EQ(robot.goal_at(1).position, Position(8.5, 1.5));
   EXPECT_EQ(robot.goal_at(1).service, 0.0);

@@ -1,4 +1,4 @@
-#include "core/model/radius_steps.h"
+#include "core/model/loads.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -14,12 +14,76 @@ constexpr double kRounding = 1e-6;
 
 }  // namespace
 
-std::vector<double> radii_of(const Robot& robot) {
-  std::vector<double> radii{robot.radius};
-  radii.reserve(robot.goal_count() + 1);
+Load first_load(const Robot& robot) {
+  return {robot.radius, robot.linear_speed, robot.linear_acceleration, robot.linear_deceleration};
+}
+
+Load load_after(const Load& before, const Goal& goal) {
+  return {goal.radius_after.value_or(before.radius), goal.linear_speed_after.value_or(before.linear_speed),
+          goal.linear_acceleration_after.value_or(before.linear_acceleration),
+          goal.linear_deceleration_after.value_or(
+              goal.linear_acceleration_after.value_or(before.linear_deceleration))};
+}
+
+std::vector<Load> loads_of(const Robot& robot) {
+  std::vector<Load> loads{first_load(robot)};
+  loads.reserve(robot.goal_count() + 1);
   for (std::size_t k = 0; k < robot.goal_count(); ++k) {
-    radii.push_back(robot.goal_at(k).radius_after.value_or(radii.back()));
+    loads.push_back(load_after(loads.back(), robot.goal_at(k)));
   }
+  return loads;
+}
+
+Load load_during(const Robot& robot, std::span<const Action> actions, std::size_t index) {
+  if (!changes_load(robot)) return first_load(robot);
+  GoalsOnTheWay served(robot);
+  for (const Action& action : actions.first(index)) served.execute(action);
+  return loads_of(robot)[served.count()];
+}
+
+void set_load(Robot& robot, const Load& load) {
+  robot.radius = load.radius;
+  robot.linear_speed = load.linear_speed;
+  robot.linear_acceleration = load.linear_acceleration;
+  robot.linear_deceleration = load.linear_deceleration;
+}
+
+bool changes_load(const Robot& robot) {
+  const Load first = first_load(robot);
+  const auto changes = [&](const Goal& goal) { return load_after(first, goal) != first; };
+  return (robot.goal && changes(*robot.goal)) || std::any_of(robot.via.begin(), robot.via.end(), changes);
+}
+
+double fastest_speed(const Robot& robot) {
+  double fastest = robot.linear_speed;
+  for (std::size_t k = 0; k < robot.goal_count(); ++k) {
+    fastest = std::max(fastest, robot.goal_at(k).linear_speed_after.value_or(fastest));
+  }
+  return fastest;
+}
+
+void set_inertia(Action& action, const Robot& robot, const Load& load) {
+  if (!action.profile) return;
+  action.profile->inertia =
+      action.type == Action::Type::rotate ? robot.angular_inertia() : load.linear_inertia();
+}
+
+void set_inertia(std::vector<Action>& actions, const Robot& robot) {
+  if (!changes_load(robot)) {
+    for (Action& action : actions) set_inertia(action, robot, first_load(robot));
+    return;
+  }
+  const std::vector<Load> loads = loads_of(robot);
+  GoalsOnTheWay served(robot);
+  for (Action& action : actions) {
+    set_inertia(action, robot, loads[served.count()]);
+    served.execute(action);
+  }
+}
+
+std::vector<double> radii_of(const Robot& robot) {
+  std::vector<double> radii;
+  for (const Load& load : loads_of(robot)) radii.push_back(load.radius);
   return radii;
 }
 

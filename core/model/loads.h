@@ -1,0 +1,85 @@
+#pragma once
+
+// What changes about a robot that picks loads up or puts them down at its goals: its radius, and how fast it
+// drives (Goal::radius_after and its companions).
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/geometry/robot_disk.h"
+#include "core/geometry/segment.h"
+#include "core/geometry/speed_profile.h"
+#include "core/model/action.h"
+#include "core/model/itinerary.h"
+#include "core/model/robot.h"
+#include "core/model/trajectory.h"
+
+namespace fleetplan::core {
+
+/// A robot while it carries the same.
+struct Load {
+  double radius = 0.0;               // metres
+  double linear_speed = 0.0;         // metres per second
+  double linear_acceleration = 0.0;  // metres per second squared
+  double linear_deceleration = 0.0;  // metres per second squared
+
+  bool operator==(const Load&) const = default;
+  auto operator<=>(const Load&) const = default;
+
+  Inertia linear_inertia() const { return {1.0 / linear_acceleration, 1.0 / linear_deceleration}; }
+};
+
+/// With what the request gives it, before it has served any goal.
+Load first_load(const Robot& robot);
+/// After the service at a goal.
+Load load_after(const Load& before, const Goal& goal);
+/// By the number of goals that it has served: as many as it has goals, and one more.
+std::vector<Load> loads_of(const Robot& robot);
+/// That with which it executes one of its actions, which are contiguous from t = 0 in its start.
+Load load_during(const Robot& robot, std::span<const Action> actions, std::size_t index);
+/// Makes it the one that the robot has.
+void set_load(Robot& robot, const Load& load);
+/// Whether not all of its loads are the same.
+bool changes_load(const Robot& robot);
+/// The greatest linear speed of all of them, metres per second.
+double fastest_speed(const Robot& robot);
+
+/// Completes the profiles of contiguous actions of a robot from t = 0 in its start with its accelerations.
+void set_inertia(std::vector<Action>& actions, const Robot& robot);
+/// Completes the profile of an action that it executes with this load.
+void set_inertia(Action& action, const Robot& robot, const Load& load);
+
+/// By the number of goals that it has served, the radius of the robot in metres.
+std::vector<double> radii_of(const Robot& robot);
+/// Whether not all of these are the same.
+bool changes_radius(const Robot& robot);
+/// The largest and the last of them.
+double largest_radius(const Robot& robot);
+double last_radius(const Robot& robot);
+
+/// From `t` on (seconds) a robot has another radius.
+struct RadiusStep {
+  double t = 0.0;
+  double radius = 0.0;  // metres
+};
+
+/// The steps of a robot that makes these visits, which begin with its first goal. A visit without end makes
+/// none. Empty for a robot that keeps its radius.
+std::vector<RadiusStep> radius_steps(const Robot& robot, std::span<const Visit> visits);
+
+/// The committed motion of a robot, waits included, from t = 0 to its end; see with_radii.
+std::vector<SizedSegment> committed_segments(const Robot& robot, const Itinerary& itinerary);
+
+/// The instant at which the committed motion ends, if the robot has a larger radius from then on: then it
+/// certainly has it, however soon it leaves.
+std::optional<SizedSegment> growth_at_end(const Robot& robot, const Itinerary& itinerary);
+
+/// Where a robot with a goal certainly is: its committed motion, and then the instant of growth_at_end.
+std::vector<SizedSegment> certain_segments(const Robot& robot, const Itinerary& itinerary);
+
+/// Contiguous segments from t = 0 with the radius of the robot; a rest is divided where it changes.
+std::vector<SizedSegment> with_radii(const std::vector<TimedSegment>& segments, const Robot& robot,
+                                     const std::vector<RadiusStep>& steps);
+
+}  // namespace fleetplan::core
