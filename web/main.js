@@ -18,6 +18,7 @@ import { clearanceJob, FleetMotion } from "./model/fleet_motion.js";
 import { RobotFilter } from "./model/robot_filter.js";
 import { watchKeptPlan } from "./model/kept_plan.js";
 import { Session } from "./model/session.js";
+import { TravelTimes } from "./model/travel_times.js";
 import { watchCheck } from "./panels/check_card.js";
 import { watchChosen } from "./panels/comparison_card.js";
 import { Inspector } from "./panels/inspector.js";
@@ -32,6 +33,7 @@ import { watchSummary } from "./panels/summary.js";
 import { TimelineDock } from "./panels/timeline_dock.js";
 import { TimeEntry } from "./panels/time_entry.js";
 import { Transport } from "./panels/transport.js";
+import { watchTravelTimes } from "./panels/travel_card.js";
 import { watchUnplanned } from "./panels/unplanned_card.js";
 import { FIRST_EXAMPLE, welcome } from "./panels/welcome.js";
 import { BoxSelection } from "./scene/box_selection.js";
@@ -109,6 +111,7 @@ watchSharing(
   () => fileStem(session.name),
 );
 watchViewMenu(stage);
+watchTravelTimes(session, stage, new TravelTimes(session, service, () => performance.now()));
 watchProblem(session, stage, tabs, edit.choice, () => options.load());
 watchLazyTab(tabs, "analyse", async () => {
   const { fillAnalysis } = await import("./analysis/analysis_panel.js");

@@ -9,7 +9,7 @@ import { prepareRequest } from "./prepare.js";
 
 const SIZE = { width: 92, height: 60 }; // pixels of a picture
 const MARGIN = { left: 3, right: 3, bottom: 3, top: 3 }; // pixels around the map
-const LOOK = { colours: "robot", paths: "none", heat: "none", lattice: false };
+const LOOK = { colours: "robot", paths: "none", heat: "none", lattice: false, travel: null };
 
 export class ExampleChoice {
   #colours;

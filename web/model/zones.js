@@ -7,6 +7,9 @@ import { zonesOf } from "./listed.js";
 
 const TYPES = ["blocked", "speed", "one_way"];
 
+/** From how many percent on a cell of a mask is blocked, as in the service. */
+export const OCCUPIED = 65;
+
 /**
  * `grid`: that of the map, which masks lie on, or null.
  * @param {Grid | null} grid
@@ -17,6 +20,14 @@ export function readZones(request, grid = null) {
     .map((zone) => (isDrawable(zone) ? polygonZone(zone) : maskZone(zone, grid)))
     .filter((zone) => zone !== null);
 }
+
+/** The zones of a request that are for a robot. */
+export const zonesFor = (request, id) =>
+  zonesOf(request).filter(
+    (zone) => isObject(zone) && (!Array.isArray(zone.robots) || zone.robots.includes(id)),
+  );
+
+const isObject = (value) => value !== null && typeof value === "object";
 
 function polygonZone(zone) {
   return {

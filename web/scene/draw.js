@@ -8,6 +8,7 @@ import { contextOf } from "../ui/dom.js";
 import { HeatMap } from "./heat_map.js";
 import { Backdrop } from "./backdrop.js";
 import { MapRaster } from "./map_raster.js";
+import { TravelMap } from "./travel_map.js";
 import {
   drawAlternative,
   drawGoal,
@@ -42,6 +43,7 @@ export class Painter {
   #look = /** @type {any} */ (null);
   #map = new MapRaster();
   #heat = new HeatMap();
+  #travel = new TravelMap();
   #colours = [];
 
   constructor(canvas) {
@@ -52,6 +54,7 @@ export class Painter {
   /** What to paint from now on, and how: see Stage.look. */
   show(scene, tracks, theme, look) {
     this.#map.show(scene.grid, [null, theme.wall]);
+    this.#travel.show(look.travel, theme);
     this.#colours = scene.robots.map(({ index }) => robotColour(index, theme.robotLightness));
     this.#scene = scene;
     this.#tracks = tracks;
@@ -121,6 +124,7 @@ export class Painter {
     const height = Math.round(top + rows * cell) - y;
     context.fillStyle = this.#theme.floor;
     context.fillRect(x, y, width, height);
+    this.#travel.draw(context, { left: x, top: y, cell, width, height });
     if (cell >= GRID_LINES_FROM * ratio) {
       paintGridLines(context, { left, top, cell, columns, rows }, this.#theme.grid);
     }

@@ -83,7 +83,9 @@ export function watchGestures(element, handlers) {
     held = null;
     handlers.abort();
   });
-  element.addEventListener("pointerleave", () => handlers.hover(null));
+  element.addEventListener("pointerleave", ({ pointerType }) => {
+    if (pointerType === "mouse") handlers.hover(null); // fingers leave after each touch
+  });
   element.addEventListener("mousedown", (event) => {
     if (event.button === 1) event.preventDefault(); // browsers would begin to scroll
   });

@@ -98,7 +98,7 @@ function paintRows({ canvas, column, row, columns }, grid, from, to, colours) {
 }
 
 /** A CSS colour as the bytes of a pixel. */
-function rgbaOf(colour) {
+export function rgbaOf(colour) {
   const canvas = document.createElement("canvas");
   canvas.width = canvas.height = 1;
   const context = contextOf(canvas);

@@ -247,6 +247,20 @@ export function ring(context, centre, radius, colour, line) {
   context.restore();
 }
 
+/** A cross that is open in its middle, which it marks. */
+export function drawCrosshair(context, theme, { x, y }) {
+  for (const [across, down] of [
+    [1, 0],
+    [-1, 0],
+    [0, 1],
+    [0, -1],
+  ]) {
+    const arm = [4, 12].map((far) => ({ x: x + across * far, y: y + down * far }));
+    drawPath(context, arm, theme.floor, { width: 4, alpha: 0.9 });
+    drawPath(context, arm, theme.ink, { width: 2, alpha: 1 });
+  }
+}
+
 /** Rings a disk of the world and puts an exclamation mark at it. `radius` in metres. */
 export function markWrong(context, { scale, screen, theme }, point, radius) {
   const { x, y } = screen(point);

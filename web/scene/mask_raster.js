@@ -1,9 +1,9 @@
 // Masks of zones as images with one pixel per cell, made once for each mask and theme.
 
+import { OCCUPIED } from "../model/zones.js";
 import { contextOf } from "../ui/dom.js";
 
 const STRONGEST = 150; // opacity of a blocked or the slowest cell, of 255
-const OCCUPIED = 65; // percent, as in the service
 
 /** The opacity of a cell of so many percent: full if blocked; of a limited speed, the stronger the slower. */
 export function opacityOf(type, percent) {

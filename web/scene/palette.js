@@ -6,6 +6,7 @@ import { Signals } from "../model/signals.js";
 // Degrees in OKLCH, ordered so that neighbours differ most; red is reserved for errors.
 const HUES = [256, 62, 150, 325, 200, 98, 290, 175, 46, 232, 128, 345];
 const GOLDEN_ANGLE = 137.508;
+const TRAVEL_SHADES = 7; // see shadeOf
 const NAMES = ["void", "floor", "wall", "grid", "edge", "ink", "muted", "danger", "accent"];
 
 /** The colour of the robot at an index, as a CSS colour; `lightness` in [0, 1]. */
@@ -28,7 +29,10 @@ export const STATES_IN_WORDS = {
   unplanned: "without a plan: a cross",
 };
 
-/** The canvas's colours under the present theme; `states` are those of robots by state. */
+/**
+ * The canvas's colours under the present theme; `states` are those of robots by state, `travel` those of travel times,
+ * from short to long.
+ */
 export function readTheme() {
   const style = getComputedStyle(document.documentElement);
   const theme = { robotLightness: Number(style.getPropertyValue("--robot-lightness")) };
@@ -36,6 +40,9 @@ export function readTheme() {
   theme.states = {};
   for (const state of Object.keys(STATES_IN_WORDS))
     theme.states[state] = style.getPropertyValue(`--state-${state}`).trim();
+  theme.travel = Array.from({ length: TRAVEL_SHADES }, (_, shade) =>
+    style.getPropertyValue(`--travel-${shade}`).trim(),
+  );
   theme.font = getComputedStyle(document.body).fontFamily;
   return theme;
 }

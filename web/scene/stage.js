@@ -32,7 +32,7 @@ export class Stage {
   #viewport = { width: 0, height: 0 };
   #camera = { x: 0, y: 0, scale: 1 };
   #fitted = true; // the camera fits the viewport until it is moved
-  #look = { colours: "robot", paths: "whole", heat: "none", lattice: false };
+  #look = { colours: "robot", paths: "whole", heat: "none", lattice: false, travel: null };
   #overlays = [];
   #shared = []; // those that other scenes show, too
   #ownTool = {};
@@ -104,7 +104,10 @@ export class Stage {
     this.redraw();
   }
 
-  /** The display options: {colours: "robot" or "state", paths: "whole", "remaining" or "none", heat: "none", "waiting" or "passage"}. */
+  /**
+   * The display options: {colours: "robot" or "state", paths: "whole", "remaining" or "none", heat: "none", "waiting" or
+   * "passage", lattice: whether it is shown, travel: {field: a TravelField} or null}.
+   */
   get look() {
     return this.#look;
   }
@@ -186,6 +189,11 @@ export class Stage {
   /** Calls `listener` when the camera is moved by hand. */
   onPan(listener) {
     this.#signals.on("pan", listener);
+  }
+
+  /** Calls `listener` with the point of the world at the pointer, or that was touched; null: the pointer has left. */
+  onPoint(listener) {
+    this.#signals.on("point", listener);
   }
 
   /** The world point in the middle of the view. */
@@ -284,9 +292,11 @@ export class Stage {
       ...ofCamera,
       hover: (pixel) => {
         this.#showHover(pixel && world(pixel));
+        this.#signals.emit("point", pixel && world(pixel));
         ofCamera.hover(pixel);
       },
       press: (pixel, event) => {
+        if (event.pointerType !== "mouse") this.#signals.emit("point", world(pixel));
         const tools = [this.#tool, this.#baseTool];
         const taker = tools.find((tool) => tool.press?.(world(pixel), event) ?? false);
         this.#pressed = taker ?? {};

@@ -67,6 +67,11 @@ export async function advance(text) {
   return post("v1/advance", text);
 }
 
+/** How long a lone robot takes between poses, see POST /v1/matrix; `signal` may abort it. */
+export async function matrix(text, signal) {
+  return post("v1/matrix", text, signal);
+}
+
 /** Posts a text; resolves to the answer, or to the data of the event `last` if the service streams events. */
 async function stream(address, body, signal, listener, last) {
   const headers = {

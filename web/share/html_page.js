@@ -12,6 +12,8 @@ const DROPPED = [
   "#placing",
   "#minimap",
   "#inspector",
+  "#travel",
+  "#travel-choice",
   ".timeline",
   "#comparison",
 ];

@@ -49,6 +49,15 @@ function openings(request, plan) {
     opened(page, () => openFiles(page, { "warehouse.json": JSON.stringify(request) }));
   const openBuilding = (request) => (page) =>
     opened(page, () => openFiles(page, { "building.json": JSON.stringify(request) }));
+  const selectRobot = async (page) => {
+    await openBuilding(buildingAsRows())(page);
+    await page.locator("#robots .robot").first().click();
+    await page.click("#view-menu summary");
+  };
+  const showTravelTimes = async (page) => {
+    await page.check("input[name=travel]");
+    await page.waitForSelector("#travel-legend li", PATIENT);
+  };
   const openRos = (page) =>
     opened(page, async () => {
       await openFiles(page, buildingOfRos());
@@ -70,6 +79,7 @@ function openings(request, plan) {
     ["open 4 M cells as rows", none, openBuilding(buildingAsRows())],
     ["open 4 M cells as an image", none, openBuilding(buildingAsImage())],
     ["open 4 M cells of ROS", none, openRos],
+    ["travel times on 4 M cells", selectRobot, showTravelTimes],
     [`open ${robots}`, none, openRequest],
     [`open a plan of ${robots}`, none, openPlan],
     [`adopt a plan of ${robots}`, showRequest, pressPlan],

@@ -202,6 +202,7 @@ for (const [how, onPage] of [
           return new Set(new Uint32Array(data.buffer)).size;
         });
         assert.ok(colours > 20);
+        assert.equal(await other.locator("#travel, #travel-choice").count(), 0, "what needs a service");
         assert.equal(
           await other.locator("canvas").count(),
           1,

@@ -6,6 +6,7 @@ import { test } from "node:test";
 
 const TEXT = 4.5;
 const SHAPE = 3;
+const STEP = 1.12; // between neighbours in an order of colours: without hues, they are told apart by lightness
 
 const TEXTS = [
   ["ink", "panel"],
@@ -76,4 +77,16 @@ for (const scheme of ["light", "dark"]) {
       }
     });
   }
+}
+
+for (const scheme of ["light", "dark"]) {
+  test(`the colours of travel times get darker step by step in the ${scheme} theme`, async () => {
+    const theme = (await themes())[scheme];
+    const shades = Array.from({ length: 7 }, (_, shade) => theme[`travel-${shade}`]);
+    shades.slice(1).forEach((shade, before) => {
+      const ratio = contrast(shades[before], shade);
+      assert.ok(luminance(shade) < luminance(shades[before]), `--travel-${before + 1} is darker`);
+      assert.ok(ratio >= STEP, `--travel-${before + 1} on --travel-${before}: ${ratio.toFixed(2)}`);
+    });
+  });
 }
