@@ -58,7 +58,7 @@ const BEYOND_SCHEMA = {
     "/trace",
     "/plans/\\d+/visits/\\d+/choice", // of another goal
     "(/robots?(/\\d+(/goal(s/\\d+)?)?)?|/(goals|tasks)/\\d+/goals/\\d+)?/metadata",
-    "(/robots/\\d+/goal(s/\\d+)?|/(goals|tasks)/\\d+/goals/\\d+)/(actions|service|due)", // actions need a service; due before not_before
+    "(/robots/\\d+/goal(s/\\d+)?|/(goals|tasks)/\\d+/goals/\\d+)/(actions|service|due|linear_(acc|dec)eleration_after)", // actions need a service; due before not_before; loads of robots without accelerations
     "/states/\\d+/released(/action)?", // behind the robot
     "/base/\\d+/order/nodes", // of which none is released
     "/release_ahead", // of plans that would have too many nodes
