@@ -124,7 +124,7 @@ export class Painter {
     const height = Math.round(top + rows * cell) - y;
     context.fillStyle = this.#theme.floor;
     context.fillRect(x, y, width, height);
-    this.#travel.draw(context, { left: x, top: y, cell, width, height });
+    this.#travel.draw(context, this.#scene.grid, { left: x, top: y, width, height });
     if (cell >= GRID_LINES_FROM * ratio) {
       paintGridLines(context, { left, top, cell, columns, rows }, this.#theme.grid);
     }

@@ -20,17 +20,17 @@ export class TravelMap {
     if (travel !== null) this.#paint(travel.field, theme);
   }
 
-  /** Draws it; `left`, `top` is the map's upper left corner and `cell` a cell's side, in the context's pixels. */
-  draw(context, { left, top, cell, width, height }) {
+  /** Draws it on a map of so many columns and rows; `left`, `top`, `width` and `height` are its place in the context's pixels. */
+  draw(context, { columns, rows }, { left, top, width, height }) {
     if (this.#shown === null) return;
     const { field } = this.#shown;
-    const square = field.cells * cell;
+    const [across, down] = [(width / columns) * field.cells, (height / rows) * field.cells]; // of a square
     context.save();
     context.beginPath();
     context.rect(left, top, width, height); // the last squares may be larger than the map
     context.clip();
-    context.imageSmoothingEnabled = square < PIXELS;
-    context.drawImage(this.#canvas, left, top, field.columns * square, field.rows * square);
+    context.imageSmoothingEnabled = across < PIXELS;
+    context.drawImage(this.#canvas, left, top, field.columns * across, field.rows * down);
     context.restore();
   }
 
