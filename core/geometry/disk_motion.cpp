@@ -67,6 +67,49 @@ Parabola relative_motion(const MovingDisk& a, const MovingDisk& b) {
           0.5 * duration * duration * (a.acceleration() - b.acceleration()), begin, end};
 }
 
+/// About the share of its time at which the parabola is nearest to the origin: the best one of a few,
+/// improved by Newton's method.
+double estimated_nearest_share(const Parabola& motion) {
+  constexpr int kSteps = 4;
+  const Position slope = motion.to - motion.from - motion.bend;
+  const auto at = [&](double x) -> Position { return motion.from + x * (slope + x * motion.bend); };
+  double best = 0.0;
+  double least = motion.from.squaredNorm();
+  for (const double x : {0.25, 0.5, 0.75, 1.0}) {
+    const double square = at(x).squaredNorm();
+    if (square < least) {
+      least = square;
+      best = x;
+    }
+  }
+  for (int k = 0; k < kSteps; ++k) {
+    const Position speed = slope + 2.0 * best * motion.bend;
+    const Position here = at(best);
+    const double curvature = speed.squaredNorm() + 2.0 * here.dot(motion.bend);
+    if (!(curvature > 0.0)) break;
+    best = std::clamp(best - here.dot(speed) / curvature, 0.0, 1.0);
+  }
+  return best;
+}
+
+/// Whether some point of the parabola is nearer than `reach` to the origin, if its squared distance is
+/// convex: then it lies above its tangents. None if it is not, or if that does not decide it.
+std::optional<bool> convex_comes_near(const Parabola& motion, double reach) {
+  const Position slope = motion.to - motion.from - motion.bend;
+  const double c = slope.squaredNorm() + 2.0 * motion.from.dot(motion.bend);
+  const double b = 3.0 * slope.dot(motion.bend);
+  const double a = 6.0 * motion.bend.squaredNorm();  // half of the second derivative is c + 2 b x + a x^2
+  const double lowest = a > 0.0 ? std::clamp(-b / a, 0.0, 1.0) : 0.0;
+  if (!(c + lowest * (2.0 * b + lowest * a) > 0.0)) return std::nullopt;
+  const double x = estimated_nearest_share(motion);
+  const Position here = motion.from + x * (slope + x * motion.bend);
+  const double square = here.squaredNorm();
+  if (square < reach * reach) return true;
+  const double rise = 2.0 * here.dot(slope + 2.0 * x * motion.bend);
+  const double least = square + std::min(-rise * x, rise * (1.0 - x));
+  return least >= reach * (reach - kParabolaError) ? std::optional(false) : std::nullopt;
+}
+
 /// Whether some point of the parabola is nearer than `reach` to the origin.
 bool comes_near(const Parabola& motion, double reach) {
   const double square = reach * reach;
@@ -76,6 +119,7 @@ bool comes_near(const Parabola& motion, double reach) {
   if (distance >= reach + sag) return false;
   if (distance + sag < reach) return true;
   if (sag <= kParabolaError) return distance < reach;
+  if (const auto near = convex_comes_near(motion, reach)) return *near;
   return comes_near(motion.half(false), reach) || comes_near(motion.half(true), reach);
 }
 
@@ -120,11 +164,70 @@ UnsafeInterval unsafe_interval(const Position& p, const MovingDisk& b, double re
 
 namespace {
 
+Position velocity_at(const MovingDisk& disk, double t) {
+  const double share = (t - disk.t_start) / (disk.t_end - disk.t_start);
+  return disk.velocity * (1.0 + disk.ramp * (2.0 * share - 1.0));
+}
+
+/// How near two disks pass each other, about, and how that changes if the first one departs later.
+struct Passing {
+  double distance = 0.0;  // metres
+  double slope = 0.0;     // metres per second
+};
+
+/// The disks have a common time, or at least an instant.
+Passing estimated_passing(const MovingDisk& mine, const MovingDisk& other) {
+  const Parabola motion = relative_motion(mine, other);
+  const double x = estimated_nearest_share(motion);
+  const Position gap = motion.from + x * (motion.to - motion.from - motion.bend + x * motion.bend);
+  const double t = motion.t_begin + x * (motion.t_end - motion.t_begin);
+  // Where I begin or end, the other one is elsewhere later; at all other times, I am. In between both agree.
+  const bool is_at_my_end = (x == 0.0 && mine.t_start >= other.t_start) ||  //
+                            (x == 1.0 && mine.t_end <= other.t_end);
+  const Position speed = is_at_my_end ? velocity_at(other, t) : velocity_at(mine, t);
+  return {gap.norm(), -gap.dot(speed) / gap.norm()};
+}
+
+/// About the departure between one at which the disks collide and one at which they do not, from which on
+/// they do not: by Newton's method. None if that does not lead there.
+std::optional<double> estimated_end(double inside, double outside, double reach, MovingDisk mine,
+                                    const MovingDisk& other) {
+  constexpr int kMostSteps = 8;
+  const double duration = mine.t_end - mine.t_start;
+  const auto passing_at = [&](double t) {
+    mine.t_start = t;
+    mine.t_end = t + duration;
+    return estimated_passing(mine, other);
+  };
+  const double near = passing_at(inside).distance;
+  const double far = passing_at(outside).distance;
+  if (!(near < reach && reach < far)) return std::nullopt;
+  double t = inside + (reach - near) / (far - near) * (outside - inside);
+  for (int k = 0; k < kMostSteps; ++k) {
+    const Passing passing = passing_at(t);
+    const double step = (reach - passing.distance) / passing.slope;
+    t += step;
+    if (!(std::min(inside, outside) < t && t < std::max(inside, outside))) return std::nullopt;
+    if (std::abs(step) < 0.1 * kDepartureError) return t;
+  }
+  return std::nullopt;
+}
+
 /// The last moment, up to kDepartureError, between one at which `collides` and one that ends the search,
-/// before which it does at all times. Rounded away from `inside`.
+/// before which it does at all times. Rounded away from `inside`. An estimate spares most of the bisection.
 template <class Collides>
-double end_of_collisions(double inside, double outside, const Collides& collides) {
+double end_of_collisions(double inside, double outside, std::optional<double> estimate,
+                         const Collides& collides) {
   if (collides(outside)) return outside;
+  if (estimate) {
+    const double half = std::copysign(0.5 * kDepartureError, outside - inside);
+    if (collides(*estimate + half)) {
+      inside = *estimate + half;
+    } else {
+      outside = *estimate + half;
+      if (collides(*estimate - half)) inside = *estimate - half;
+    }
+  }
   while (std::abs(outside - inside) > kDepartureError) {
     const double middle = 0.5 * (inside + outside);
     if (middle == inside || middle == outside) break;
@@ -147,6 +250,7 @@ UnsafeInterval forbidden_departures_with_ramps(MovingDisk mine, double duration,
   const Segment its_path{b.from, b.from + b.velocity * length};
   const NearestShares nearest = nearest_shares(path, its_path);
   if (nearest.distance >= reach) return {};
+  mine.t_end = mine.t_start + duration;
   const auto collides = [&](double t) {
     mine.t_start = t;
     mine.t_end = t + duration;
@@ -154,8 +258,10 @@ UnsafeInterval forbidden_departures_with_ramps(MovingDisk mine, double duration,
   };
   const double inside =
       b.t_start + length * elapsed_share(nearest.at.second, b.ramp) - my_time(nearest.at.first);
-  return {end_of_collisions(inside, b.t_start - duration, collides),
-          end_of_collisions(inside, b.t_end, collides)};
+  const auto end_towards = [&](double outside) {
+    return end_of_collisions(inside, outside, estimated_end(inside, outside, reach, mine, b), collides);
+  };
+  return {end_towards(b.t_start - duration), end_towards(b.t_end)};
 }
 
 }  // namespace

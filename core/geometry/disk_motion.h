@@ -15,9 +15,11 @@
 // At constant acceleration, the lengths s and u at which the two collide form the same convex region, and the
 // departure that lets the two be at s and u at one time is continuous in them. So the departures that collide
 // are one interval again. It contains the departure that makes the two meet where their paths are nearest;
-// from there, its ends are found by bisection, rounded outwards by kDepartureError. Whether two disks collide
-// is decided on chords of their relative motion, a parabola, which deviates from its chord by no more than
-// a T^2 / 8 in a time T; halves are looked at until that is below kParabolaError.
+// between there and departures without a common time, its ends are estimated by Newton's method and then
+// bracketed within kDepartureError, rounded outwards, by bisection where the estimate was wrong. Whether two
+// disks collide is decided on their relative motion, a parabola, which deviates from its chord by no more
+// than a T^2 / 8 in a time T, and whose squared distance lies above its tangents where it is convex; halves
+// are looked at until one of these decides it, up to kParabolaError.
 //
 // When they are nearest to each other, and when they are too near, is exact: the squared distance is of
 // degree four in time, and monotone between the roots of its derivative.

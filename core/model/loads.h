@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "core/geometry/robot_disk.h"
@@ -25,7 +26,10 @@ struct Load {
   double linear_deceleration = 0.0;  // metres per second squared
 
   bool operator==(const Load&) const = default;
-  auto operator<=>(const Load&) const = default;
+  bool operator<(const Load& other) const {
+    return std::tie(radius, linear_speed, linear_acceleration, linear_deceleration) <
+           std::tie(other.radius, other.linear_speed, other.linear_acceleration, other.linear_deceleration);
+  }
 
   Inertia linear_inertia() const { return {1.0 / linear_acceleration, 1.0 / linear_deceleration}; }
 };

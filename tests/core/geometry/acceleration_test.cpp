@@ -242,9 +242,14 @@ TEST(Acceleration, ForbiddenDeparturesAreExactlyThoseThatCollide) {
         ASSERT_LT(distance, e.reach + 1e-8) << "departure " << t;
       }
     }
-    // Just outside, up to rounding, nothing collides.
-    if (!forbidden.empty() && forbidden.end < e.other.t_end) {
-      ASSERT_FALSE(collide(ramps.departing(forbidden.end), e.other, e.reach - 1e-9));
+    if (forbidden.empty() || forbidden.end - forbidden.begin < 1e-9) continue;
+    // At its ends nothing collides, up to rounding, and hardly within them something does.
+    const double first = e.other.t_start - e.duration;
+    for (const auto& [t, within] : {std::pair(forbidden.begin, 1.0), std::pair(forbidden.end, -1.0)}) {
+      if (t <= first + 1e-9 || t >= e.other.t_end - 1e-9) continue;
+      ASSERT_FALSE(collide(ramps.departing(t), e.other, e.reach - 1e-9)) << "departure " << t;
+      const double inside = t + within * (2.0 * kDepartureError + 1e-14 * std::abs(t));
+      ASSERT_TRUE(collide(ramps.departing(inside), e.other, e.reach + 1e-9)) << "departure " << t;
     }
   }
   EXPECT_GT(hits, kCases / 10);
