@@ -39,7 +39,7 @@ json map_rows(const core::OccupancyGrid& grid) {
 
 }  // namespace
 
-std::string Instance::body(std::size_t robots, const json& options) const {
+std::string Instance::body(std::size_t robots, const json& options, const json& defaults) const {
   json request = json::object();
   for (const auto& [key, value] : request_.items()) {
     if (key != "robots") request[key] = value;
@@ -49,6 +49,9 @@ std::string Instance::body(std::size_t robots, const json& options) const {
   request["robots"] = json(json::array_t(all.begin(), all.begin() + count));
   if (!request.contains("options")) request["options"] = json::object();
   request["options"].update(options);
+  if (defaults.empty()) return request.dump();
+  if (!request.contains("robot_defaults")) request["robot_defaults"] = json::object();
+  request["robot_defaults"].update(defaults);
   return request.dump();
 }
 

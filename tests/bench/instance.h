@@ -18,8 +18,10 @@ class Instance {
   const std::string& name() const { return name_; }
   std::size_t robots() const { return request_.at("robots").size(); }
 
-  /// The body with the first `robots` robots (at most all), with `options` overriding its own.
-  std::string body(std::size_t robots, const nlohmann::json& options) const;
+  /// The body with the first `robots` robots (at most all), with `options` and `defaults` of robots
+  /// overriding its own.
+  std::string body(std::size_t robots, const nlohmann::json& options,
+                   const nlohmann::json& defaults = nlohmann::json::object()) const;
 
  private:
   std::string name_;

@@ -35,6 +35,14 @@ TEST(Instance, OverridesItsOptionsAndKeepsTheOthers) {
   EXPECT_EQ(body["options"], json({{"mode", "first"}, {"max_iterations", 3}}));
 }
 
+TEST(Instance, GivesRobotsWhatTheyDoNotHave) {
+  json request = json::parse(small_instance().body(1, json::object()));
+  request["robot_defaults"] = {{"vicinity", 0.1}, {"linear_acceleration", 2.0}};
+  const Instance instance("x", request);
+  const json body = json::parse(instance.body(1, json::object(), {{"linear_acceleration", 1.0}}));
+  EXPECT_EQ(body["robot_defaults"], json({{"vicinity", 0.1}, {"linear_acceleration", 1.0}}));
+}
+
 TEST(Instance, OfAWorkloadIsSolvedAndValid) {
   const Instance instance = small_instance();
   const Measurement measurement =

@@ -27,6 +27,7 @@ Job parse_job(const std::string& line) {
     }
     job.robots = document.at("robots").get<std::vector<std::size_t>>();
     job.planning = document.at("options");
+    job.defaults = document.value("robot_defaults", json::object());
     job.measure = {document.at("budget"), document.at("repeats"), document.value("alone", false)};
     return job;
   } catch (const json::exception& error) {

@@ -25,6 +25,7 @@ struct Job {
   std::variant<std::string, SeededRecipe> from;  // a request file, or a workload
   std::vector<std::size_t> robots;               // the first so many each; none: all
   nlohmann::json planning;                       // options of the requests, over their own
+  nlohmann::json defaults;                       // robot_defaults of the requests, over their own
   MeasureOptions measure;
 };
 
@@ -34,8 +35,8 @@ struct Job {
 ///   "repeats": 1}
 ///   {"name": "b", "workload": {"hall": "rects", "side": 64, "seed": 1, "robots": 300}, "robots": [], ...}
 ///
-/// `budget` is in seconds; `"alone": true` also plans each robot alone. Throws std::runtime_error for
-/// anything else.
+/// `budget` is in seconds; `"robot_defaults"` and `"alone": true`, which also plans each robot alone, may be
+/// left out. Throws std::runtime_error for anything else.
 Job parse_job(const std::string& line);
 
 /// The instance of a job; throws std::runtime_error if it cannot be read.

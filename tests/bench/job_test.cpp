@@ -25,6 +25,7 @@ TEST(Job, ReadsItsMembers) {
   EXPECT_EQ(job.name, "rects/5");
   EXPECT_THAT(job.robots, ElementsAre(10, 15));
   EXPECT_EQ(job.planning, json({{"mode", "anytime"}}));
+  EXPECT_EQ(job.defaults, json::object());
   EXPECT_EQ(job.measure.budget, 2.5);
   EXPECT_EQ(job.measure.repeats, 3);
   EXPECT_TRUE(job.measure.alone);

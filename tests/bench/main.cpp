@@ -21,7 +21,8 @@ void run(const Job& job) {
       std::cerr << job.name << " has only " << instance.robots() << " robots, not " << robots << '\n';
       continue;
     }
-    const Measurement made = measure(job.name, robots, instance.body(robots, job.planning), job.measure);
+    const Measurement made =
+        measure(job.name, robots, instance.body(robots, job.planning, job.defaults), job.measure);
     std::cerr << job.name << ", " << robots << " robots: " << made.seconds << " s, " << made.planned
               << " planned\n";
     if (!made.fault.empty()) std::cerr << "  FAULT: " << made.fault << '\n';

@@ -95,6 +95,8 @@ def make_parser():
     add("--mode", choices=["first", "anytime"], help="first solution, or improve it until the budget is spent")
     add("--options", type=json_object, default={}, metavar="JSON",
         help='more options of the requests, such as {"connectivity": 4}')
+    add("--robot-defaults", type=json_object, default={}, metavar="JSON",
+        help='what robots have unless they say otherwise, such as {"linear_acceleration": 1}')
     add("--repeat", type=between(1, 1000, int), default=1, metavar="N",
         help="plan each instance N times and report the median time")
     add("--alone", action="store_true",

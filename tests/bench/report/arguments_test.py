@@ -54,8 +54,8 @@ class Arguments(unittest.TestCase):
             self.assertEqual(parse(["--reference", *words]).root, root)
 
     def test_mistakes_are_rejected_with_the_name_of_the_flag(self):
-        for words in [["--seeds", "x"], ["--robots", "0"], ["--options", "[1]"], ["--halls", "round"],
-                      ["--budget", "0"], ["--repeat", "x"], ["--bogus"]]:
+        for words in [["--seeds", "x"], ["--robots", "0"], ["--options", "[1]"], ["--robot-defaults", "1"],
+                      ["--halls", "round"], ["--budget", "0"], ["--repeat", "x"], ["--bogus"]]:
             with contextlib.redirect_stderr(io.StringIO()) as message, self.assertRaises(SystemExit) as exit_:
                 parse(words)
             self.assertEqual(exit_.exception.code, 2)

@@ -45,7 +45,7 @@ def with_options(jobs, arguments):
     def complete(job):
         budget = job.get("budget", arguments.budget)
         return {**job, "budget": budget, "options": request_options(arguments, budget), "repeats": arguments.repeat,
-                "alone": arguments.alone}
+                "robot_defaults": arguments.robot_defaults, "alone": arguments.alone}
     return [complete(job) for job in jobs]
 
 
