@@ -105,8 +105,8 @@ class Instance {
     const std::vector<Stage>& all = stages_[index];
     return all[all.size() > 1 ? stage : 0];
   }
-  Stage make_stage(std::size_t index, const Load& load, const StopCondition& stop);
-  const DriveZones* add_zones(std::size_t index, const Load& load);
+  Stage make_stage(std::size_t index, const Load& load, const DriveZones* zones, const StopCondition& stop);
+  const DriveZones* add_zones(std::size_t index, const Load& load, const DriveZones* of_other_load);
 
   const Problem& problem_;
   PlanOptions options_;

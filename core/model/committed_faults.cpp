@@ -174,7 +174,7 @@ class CommittedFaults {
       const std::size_t before = served.count();
       served.execute(action);
       const bool has_other_load = loads[served.count()] != loads[before];
-      if (has_other_load) zones = DriveZones(conditions_.zones, index, robot, loads[served.count()]);
+      if (has_other_load) zones = zones.with(loads[served.count()]);
       if (!zone) continue;
       ProblemFault fault{ProblemFault::Kind::committed_in_zone, index, index, 0.0, 0, action.t_start};
       fault.zone = zone;

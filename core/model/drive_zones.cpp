@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/geometry/angle.h"
 #include "core/geometry/tolerance.h"
@@ -78,27 +79,49 @@ std::vector<DriveZones::Piece> timed(const std::vector<Part>& parts, const Posit
 
 DriveZones::DriveZones(const std::vector<Zone>& zones, std::size_t index, const Robot& robot,
                        const Load& load)
-    : linear_speed_(load.linear_speed),
-      angular_speed_(robot.angular_speed),
-      linear_inertia_(load.linear_inertia()),
-      least_angular_speed_(angular_speed_) {
+    : angular_speed_(robot.angular_speed) {
+  std::vector<Area> areas;
+  std::vector<OneWayZone> one_way;
   for (std::size_t k = 0; k < zones.size(); ++k) {
     const Zone& zone = zones[k];
     if (!zone.is_for(index)) continue;
     if (zone.type == Zone::Type::one_way) {
-      one_way_.push_back({k, Polygon(zone.polygon), zone.heading, zone.half_angle});
+      one_way.push_back({k, Polygon(zone.polygon), zone.heading, zone.half_angle});
+    } else if (zone.type == Zone::Type::speed) {
+      Area& area = areas.emplace_back(Area{k, Polygon(zone.polygon), {}});
+      area.limits.linear_speed = zone.linear_speed;
+      area.limits.linear_speed_share = zone.linear_speed_share;
+      area.limits.angular_speed = zone.angular_speed;
     }
-    const double linear_speed = zone.linear_speed_for(load.linear_speed);
-    const bool is_slow = linear_speed < linear_speed_ || zone.angular_speed < angular_speed_;
-    if (zone.type != Zone::Type::speed || !is_slow) continue;
-    speed_.push_back({k, Polygon(zone.polygon), linear_speed, zone.angular_speed});
-    least_angular_speed_ = std::min(least_angular_speed_, zone.angular_speed);
+  }
+  areas_ = std::make_shared<const std::vector<Area>>(std::move(areas));
+  one_way_ = std::make_shared<const std::vector<OneWayZone>>(std::move(one_way));
+  take(load);
+}
+
+DriveZones DriveZones::with(const Load& load) const {
+  DriveZones same = *this;
+  same.take(load);
+  return same;
+}
+
+void DriveZones::take(const Load& load) {
+  linear_speed_ = load.linear_speed;
+  linear_inertia_ = load.linear_inertia();
+  least_angular_speed_ = angular_speed_;
+  speed_.clear();
+  for (const Area& area : *areas_) {
+    const double linear_speed = area.limits.linear_speed_for(load.linear_speed);
+    const double angular_speed = area.limits.angular_speed;
+    if (linear_speed >= linear_speed_ && angular_speed >= angular_speed_) continue;
+    speed_.push_back({&area, linear_speed, angular_speed});
+    least_angular_speed_ = std::min(least_angular_speed_, angular_speed);
   }
 }
 
 std::optional<std::size_t> DriveZones::forbidding_zone(const Position& from, const Position& to) const {
   const Position way = to - from;
-  for (const OneWayZone& zone : one_way_) {
+  for (const OneWayZone& zone : *one_way_) {
     if (!zone.polygon.box_meets(from, to)) continue;
     const double direction = std::atan2(way.y(), way.x());
     if (angle_between(normalize_angle(direction), zone.heading) <= zone.half_angle + kSameHeading) continue;
@@ -116,9 +139,9 @@ std::optional<std::size_t> DriveZones::broken_by(const Action& action) const {
     for (const SpeedZone& zone : speed_) {
       const bool is_fast = action.profile ? action.profile->cruise > zone.angular_speed + kContactTolerance
                                           : duration * zone.angular_speed < turn - kContactTolerance;
-      if (is_fast && zone.polygon.contains(from) &&
-          zone.polygon.distance_to_border(from) > kContactTolerance) {
-        return zone.index;
+      if (is_fast && zone.area->polygon.contains(from) &&
+          zone.area->polygon.distance_to_border(from) > kContactTolerance) {
+        return zone.area->index;
       }
     }
   }
@@ -126,17 +149,17 @@ std::optional<std::size_t> DriveZones::broken_by(const Action& action) const {
   const double length = (to - from).norm();
   // Bounded: the sides of all zones, each once.
   for (const SpeedZone& zone : speed_) {
-    for (const Polygon::Span& span : zone.polygon.spans_inside(from, to)) {
+    for (const Polygon::Span& span : zone.area->polygon.spans_inside(from, to)) {
       if (action.profile) {
         const double first = span.first * length + kContactTolerance;
         const double last = span.last * length - kContactTolerance;
         const bool is_fast = last > first && fastest_between(*action.profile, first, last, length) >
                                                  zone.linear_speed + kContactTolerance;
-        if (is_fast) return zone.index;
+        if (is_fast) return zone.area->index;
         continue;
       }
       const double share = span.last - span.first;
-      if (share * duration * zone.linear_speed < share * length - kContactTolerance) return zone.index;
+      if (share * duration * zone.linear_speed < share * length - kContactTolerance) return zone.area->index;
     }
   }
   return length > kContactTolerance ? forbidding_zone(from, to) : std::nullopt;
@@ -152,7 +175,7 @@ std::vector<DriveZones::Piece> DriveZones::pieces(const Position& from, const Po
   // Bounded: the sides of all zones, each once.
   for (const SpeedZone& zone : speed_) {
     if (zone.linear_speed >= linear_speed_) continue;
-    for (const Polygon::Span& span : zone.polygon.spans_inside(from, to)) {
+    for (const Polygon::Span& span : zone.area->polygon.spans_inside(from, to)) {
       slow.push_back({span, zone.linear_speed});
       if (span.first > 0.0) ends.push_back(span.first);
       if (span.last < 1.0) ends.push_back(span.last);
@@ -193,14 +216,14 @@ double DriveZones::translation_time(const Position& from, const Position& to) co
 
 bool DriveZones::meets_speed_zone(const Position& from, const Position& to) const {
   return std::any_of(speed_.begin(), speed_.end(),
-                     [&](const SpeedZone& zone) { return zone.polygon.box_meets(from, to); });
+                     [&](const SpeedZone& zone) { return zone.area->polygon.box_meets(from, to); });
 }
 
 DriveZones::Speeds DriveZones::speeds_at(const Position& position) const {
   Speeds least{linear_speed_, angular_speed_};
   for (const SpeedZone& zone : speed_) {
-    if (!zone.polygon.box_meets(position, position) || !zone.polygon.contains(position) ||
-        zone.polygon.distance_to_border(position) <= kSamePosition) {
+    if (!zone.area->polygon.box_meets(position, position) || !zone.area->polygon.contains(position) ||
+        zone.area->polygon.distance_to_border(position) <= kSamePosition) {
       continue;
     }
     least = {std::min(least.linear, zone.linear_speed), std::min(least.angular, zone.angular_speed)};

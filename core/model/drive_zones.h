@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -32,8 +33,10 @@ class DriveZones {
   DriveZones(const std::vector<Zone>& zones, std::size_t index, const Robot& robot, const Load& load);
   DriveZones(const std::vector<Zone>& zones, std::size_t index, const Robot& robot)
       : DriveZones(zones, index, robot, first_load(robot)) {}
+  /// The same zones while the robot carries another load; they share their polygons.
+  DriveZones with(const Load& load) const;
 
-  bool empty() const { return speed_.empty() && one_way_.empty(); }
+  bool empty() const { return speed_.empty() && one_way_->empty(); }
   bool limit_speeds() const { return !speed_.empty(); }
 
   /// Returns the index of a one-way zone that forbids the straight move; none if it may be made.
@@ -58,9 +61,14 @@ class DriveZones {
   double least_angular_speed() const { return least_angular_speed_; }
 
  private:
-  struct SpeedZone {
+  /// A zone as it is given.
+  struct Area {
     std::size_t index = 0;
     Polygon polygon;
+    Zone limits;  // without its polygon
+  };
+  struct SpeedZone {
+    const Area* area = nullptr;
     double linear_speed = 0.0;
     double angular_speed = 0.0;
   };
@@ -79,12 +87,15 @@ class DriveZones {
   bool meets_speed_zone(const Position& from, const Position& to) const;
   Speeds speeds_at(const Position& position) const;
 
-  double linear_speed_;
+  void take(const Load& load);
+
+  double linear_speed_ = 0.0;
   double angular_speed_;
   Inertia linear_inertia_;
-  double least_angular_speed_;
-  std::vector<SpeedZone> speed_;
-  std::vector<OneWayZone> one_way_;
+  double least_angular_speed_ = 0.0;
+  std::shared_ptr<const std::vector<Area>> areas_;  // of the type speed
+  std::vector<SpeedZone> speed_;                    // those that are slower than the robot
+  std::shared_ptr<const std::vector<OneWayZone>> one_way_;
 };
 
 }  // namespace fleetplan::core

@@ -59,7 +59,8 @@ void Vertices::begin_at(const Instance& instance, std::size_t robot) {
 
 Vertices::Vertices(const Instance& instance, std::size_t robot, std::size_t stage, const StopCondition& stop)
     : Vertices(instance, robot, stage) {
-  if (instance.motion(robot).radius == motion_.radius) start_ = add_start(instance, robot);
+  const Load& load = instance.load(robot, stage);
+  if (instance.load(robot, 0) == load) start_ = add_start(instance, robot);
   if (start_ >= 0 && !instance.is_clear_at_start(robot)) never_entered_ = start_;
   // Committed actions that end in contact with the goal end there: a service goes on, without a move.
   double same = instance.robot(robot).committed.empty() ? kSamePosition : kContactTolerance;
@@ -79,8 +80,7 @@ Vertices::Vertices(const Instance& instance, std::size_t robot, std::size_t stag
       goals_.push_back({goals_.empty() ? start_ : goals_.back().vertex, std::nullopt});
       continue;
     }
-    const bool is_here = instance.motion(robot, k).radius == motion_.radius ||
-                         instance.motion(robot, k + 1).radius == motion_.radius;
+    const bool is_here = instance.load(robot, k) == load || instance.load(robot, k + 1) == load;
     const bool at_start = start_ >= 0 && (goal.position - start_pose_.position).norm() <= same;
     const int vertex = at_start ? start_ : is_here ? add_goal(instance, robot, goal.position) : -1;
     goals_.push_back({vertex, goal.theta});

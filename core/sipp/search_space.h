@@ -61,7 +61,7 @@ class Vertices {
   double least_straight() const { return lattice_.least_straight(); }
 
   int count() const { return first_own_ + static_cast<int>(own_.size()); }
-  /// -1 if the robot has another radius there.
+  /// -1 if the robot has another load there.
   int start() const { return start_; }
   /// The end of the committed actions, or the robot's start without any.
   const Pose& start_pose() const { return start_pose_; }
@@ -72,7 +72,7 @@ class Vertices {
     bool operator==(const GoalPose&) const = default;
   };
   /// The poses of the goals that are left to visit, in their order; empty for a parked robot. Goals at which
-  /// the robot neither arrives nor leaves with this radius have no vertex.
+  /// the robot neither arrives nor leaves with this load have no vertex.
   const std::vector<GoalPose>& goals() const { return goals_; }
   /// The vertex of the last one, -1 for a parked robot.
   int goal() const { return goals_.empty() ? -1 : goals_.back().vertex; }

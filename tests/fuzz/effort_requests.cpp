@@ -207,7 +207,7 @@ void add_members(Json& request, Choices& choices) {
       place["service"] = goal % 3;
       if (goal % 5 == 4)
         place["radius_after"] = request["robot_defaults"]["radius"].get<double>() * (1.0 + goal % 2);
-      if (goal % 7 == 3) place["linear_speed_after"] = goal % 2 == 0 ? 1e-3 : 2.0;
+      if (goal % 7 == 3) place["linear_speed_after"] = 1e-3 * (1 + goal);  // each another load
       list.push_back(std::move(place));
     }
     list.push_back(robots[k]["goal"]);
