@@ -144,6 +144,20 @@ class ByHand(unittest.TestCase):
         self.assertEqual((waits.type, waits.seconds), ("wait", 0.5))
         self.assertEqual(self.instruction(executor, now=1.0).type, "rotate")
 
+    def test_errors_of_measured_poses_do_not_begin_a_move_before_its_time(self):
+        course = actions(("wait", 2.0), ("translate", 2.0))
+        executor = self.executor({"a": course}, early=False)
+        for now in (1.0, 2.0, 2.5):
+            executor.report(Report("a", pose(0.005)), now - 0.2)
+            expected = "wait" if now < 2.0 else "translate"
+            self.assertEqual(self.instruction(executor, now=now).type, expected, now)
+        # After a turn that ends sooner than planned; and where there is no stop between two moves, nobody is held.
+        for turn, expected in ((0.5, "wait"), (0.03, "translate")):
+            executor = self.executor({"a": actions(("translate", 2.0), ("rotate", turn), ("translate", 2.0))}, early=False)
+            executor.report(Report("a", pose(2.0)), 1.9)
+            executor.report(Report("a", pose(2.005, 0.0, turn)), 1.9)
+            self.assertEqual(self.instruction(executor, now=1.9).type, expected, turn)
+
     def test_a_service_takes_its_time_however_late_it_begins(self):
         plans = {"a": actions(("translate", 1.0), ("wait", 4.0, 0), ("translate", 1.0))}
         executor = self.executor(plans, goals={"a": [{"x": 1.0, "y": 0.0, "service": 3.0}, {"x": 2.0, "y": 0.0}]})

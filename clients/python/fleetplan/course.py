@@ -189,6 +189,10 @@ class Course:
         return {"x": begin["x"] + share * (end["x"] - begin["x"]), "y": begin["y"] + share * (end["y"] - begin["y"]),
                 "theta": begin["theta"]}
 
+    def begins_at_rest(self, index: int) -> bool:
+        """Whether the robot stands when it begins an action."""
+        return not any((self._goes_on_with(before) or 0) >= index for before in range(max(0, index - 2), index))
+
     def room(self, place: Place, limit: Place) -> float:
         """Metres, or radians of a rotation, from a place to where the robot has to stand, as it may not pass the
         limit: translations in the same direction follow each other without a stop, but for a turn that is steered."""

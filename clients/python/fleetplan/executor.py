@@ -156,7 +156,8 @@ class Executor:
                 raise ValueError(f"{report.robot} has no progress {report.progress} of an action {report.action}")
             progress.place = min(course.end, max(before, report.action + report.progress))
         elif report.pose is not None:
-            progress.place = course.located(report.pose, before, self._limit(report.robot), self._near)
+            limit = min(self._limit(report.robot), self._first_not_due(progress, now))
+            progress.place = course.located(report.pose, before, limit, self._near)
         if report.service_left is not None and before < course.end:
             progress.place = course.after_service(progress.place, report.service_left)
         if int(progress.place) != int(before):
@@ -324,6 +325,17 @@ class Executor:
         if action["type"] == "wait":
             return self.start + action["t_end"] - course.amount(index)
         return max(self.start + action["t_start"], progress.committed_from.get(index, -math.inf))
+
+    def _first_not_due(self, progress: _Progress, now: float) -> Place:
+        """Where the robot stands until it may begin the move after that. Without this limit, errors of measured poses
+        would look as if it had begun."""
+        course = progress.course
+        for index in range(math.ceil(progress.place - _REACHED), len(course.actions)):
+            if course.actions[index]["type"] == "wait":
+                break
+            if course.begins_at_rest(index) and now < self._begins(progress, index) - _SAME_TIME:
+                return index
+        return math.inf
 
     def _instruction(self, robot: str, now: float) -> Instruction:
         progress, course = self._robots[robot], self._robots[robot].course
