@@ -352,6 +352,60 @@ class FromPlanToPlan(unittest.TestCase):
         self.assertAlmostEqual(self.executor.instructions(6.0)[0].seconds, 1.0)
         self.assertEqual(self.executor.instructions(7.0)[0].type, "translate")
 
+    def test_a_plan_is_not_followed_before_each_robot_can_stop_before_its_closed_gates(self):
+        course = actions(("translate", 4.0))
+        old, new = planned({"a": course, "b": course}), planned({"a": course, "b": course}, [("a", 0, 0.35, "b", 0, 0.2)])
+        for robot in old[0]["robots"]:
+            robot["committed"] = course
+        for at, speed, can_stop in ((1.2, 1.0, False), (1.2, 0.4, True), (1.45, 0.0, False), (1.405, 0.0, True)):
+            executor = Executor(*old, 0.0, deceleration=1.0, reaction=0.1)
+            executor.commit(old[0], executor.places(), 0.0)
+            executor.report(Report("a", pose(at), speed=speed), 1.2)
+            with self.subTest(at=at, speed=speed):
+                self.assertEqual(executor.follow(old[0], new[1], 0.0, 1.2), [] if can_stop else ["a"])
+                goes, _ = executor.instructions(1.2)
+                self.assertEqual((executor.plan, goes.waits_for), (2, ("b",)) if can_stop else (1, ()))
+                executor.report(Report("b", pose(0.8)), 1.3)  # which opens the gate
+                if not can_stop:
+                    self.assertEqual(executor.follow(old[0], new[1], 0.0, 1.3), [])
+                goes, _ = executor.instructions(1.3)
+                self.assertEqual((goes.plan, goes.target, goes.waits_for), (2, pose(4.0), ()))
+                self.assertEqual(executor.progress("a")["progress"], at / 4.0)
+
+    def test_no_robot_passes_a_closed_gate_whatever_gates_the_next_plan_has(self):
+        def steps(dice):
+            """Gates of a, which wait for b."""
+            gates, untils = (sorted(dice.uniform(0.0, 1.0) for _ in range(12)) for _ in range(2))
+            return [("a", 0, gate, "b", 0, until) for gate, until in zip(gates, untils)]
+
+        put_off, course = 0, actions(("translate", 20.0))
+        for seed in range(30):
+            dice = random.Random(seed)
+            request, answer = planned({"a": course, "b": course}, steps(dice), options={"execution_margin": 0.02})
+            request["robot_defaults"] = {"linear_acceleration": 0.5, "linear_deceleration": dice.uniform(0.3, 1.0)}
+            for robot in request["robots"]:
+                robot["committed"] = course
+            executor = Executor(request, answer, 0.0, reaction=0.1)
+            fleet = SimulatedFleet(request, seed=seed, speed=(0.5, 1.0), stops_per_hour=600.0)
+            begin = None  # of the plan that is made
+            while not executor.finished:
+                fleet.obey(executor.instructions(fleet.now))
+                fleet.drive(0.1)
+                for report in fleet.reports():
+                    executor.report(report, fleet.now)
+                if begin is None:
+                    begin, answer = fleet.now, planned({"a": course, "b": course}, steps(dice))[1]
+                    request["progress"] = [{"robot": robot, "was": executor.progress(robot), "is": executor.progress(robot)}
+                                           for robot in "ab"]
+                    executor.commit(request, executor.places(), begin)
+                elif fleet.now >= begin + 0.4:
+                    too_fast = executor.follow(request, answer, begin, fleet.now)
+                    put_off += bool(too_fast)
+                    begin = begin if too_fast else None
+                self.assertEqual(executor.overran, [], seed)
+                self.assertLess(fleet.now, 300.0, "a waits for ever")
+        self.assertGreater(put_off, 100)
+
     def test_robots_that_are_added_begin_at_their_start(self):
         self.executor.commit(self.request, self.executor.places(), 1.0)
         request = {**self.request, "robots": [*self.request["robots"], {"id": "new", "start": pose(7.0)}]}

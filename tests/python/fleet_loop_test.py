@@ -137,6 +137,33 @@ class Loops(unittest.TestCase):
         self.assertEqual(loop.stuck, {"a": ["b"]})
         self.assertIsNone(loop.answer["plans"][0]["estimated_cost"])
 
+    def test_a_plan_that_robots_cannot_obey_is_put_off_and_then_given_up(self):
+        defaults = {"radius": 0.4, "linear_speed": 1.0, "angular_speed": 1.0}
+        robots = [{"id": robot, "start": {"x": 0.5, "y": y, "theta": 0.0}, "goal": {"x": 24.5, "y": y, "theta": 0.0}}
+                  for robot, y in (("a", 0.5), ("b", 2.5))]
+        request = {"map": {"rows": ["." * 25] * 3}, "robots": robots, "robot_defaults": defaults}
+        # After half a second a is past the gate, which opens when b has driven so far: soon, or too late.
+        for opens, times in ((0.9, [0.5, 1.5, 3.0, 3.5]), (2.9, [0.5, 1.5, 4.0])):
+            with self.subTest(opens=opens):
+                fleet = SimulatedFleet(request, speed=(1.0, 1.0))
+                client = WithGate(self.client, 3, ("a", 0.3), ("b", opens))
+                loop = FleetLoop(client, request, clock=fleet.clock, background=False, commit=3.0, latency=0.5)
+                taken, failures = [], []
+                while fleet.now < 4.5:
+                    before = loop.answer, loop.failure
+                    fleet.obey(loop.step(fleet.reports()))
+                    if loop.answer is not before[0]:
+                        taken.append(fleet.now)
+                    if loop.failure not in (None, before[1]):
+                        failures.append((fleet.now, str(loop.failure)))
+                    self.assertEqual(loop.overran, [])
+                    fleet.drive(0.125)
+                self.assertEqual(taken, times)
+                is_given_up = len(times) == 3
+                self.assertEqual(failures, [(3.5, "['a'] could not stop before gates of the plan")] if is_given_up else [])
+                for robot in "ab":
+                    self.assertAlmostEqual(fleet.pose(robot)["x"], 0.5 + fleet.now - 0.5, delta=0.05)
+
     def test_dependencies_that_are_missing_are_asked_for(self):
         client = WithoutDependencies(self.client)
         day = Day(client, 12).run(5.0)
@@ -231,6 +258,28 @@ class WithoutDependencies:
     def dependencies(self, request, answer):
         self.asked += 1
         return self.client.dependencies(request, answer)
+
+
+class WithGate:
+    """A client of which one plan has a gate within what is committed."""
+
+    def __init__(self, client, number, gate, until):
+        """The gate is in this plan, from 1. `gate`, `until`: a robot, and metres of its first action."""
+        self.client, self.number, self.gate, self.until, self.count = client, number, gate, until, 0
+
+    def __getattr__(self, name):
+        return getattr(self.client, name)
+
+    def plan(self, request):
+        answer = self.client.plan(request)
+        self.count += 1
+        if self.count == self.number:
+            first = {plan["robot"]: plan["actions"][0] for plan in answer["plans"]}
+            gate, until = ({"robot": robot, "action": 0,
+                            "progress": metres / (first[robot]["to"]["x"] - first[robot]["from"]["x"])}
+                           for robot, metres in (self.gate, self.until))
+            answer["dependencies"].append({"gate": gate, "until": until, "slack": 0.0})
+        return answer
 
 
 def stands_of(legs):

@@ -165,7 +165,7 @@ class Course:
 
     def deceleration(self, index: int) -> float:
         """Metres per second squared, of the robot in an action; infinite if it stops at once."""
-        return self._limits[index].fall
+        return self._limits[index].fall if self._limits else math.inf
 
     def planned_speed(self, index: int) -> float:
         """The greatest, metres or radians per second; 0 of a wait."""

@@ -113,6 +113,8 @@ class Executor:
         near to a gate is there. The execution margin should be at least as much."""
         self._early, self._deceleration, self._reaction, self._near = early, deceleration, reaction, near
         self.plan = 0  # the number of the plan
+        self.start = now  # of the plan: its time 0
+        self._robots: dict[str, _Progress] = {}
         self._begin(request, answer, now)
 
     # ---------------------------------------------------------------- what robots should do
@@ -140,7 +142,7 @@ class Executor:
         """Robots that have passed a gate that is closed, by more than their execution margin: measured poses may be
         a little past it. They have to stand, but what is promised does not hold."""
         return [robot for robot, progress in self._robots.items()
-                if progress.course.driven(self._closed_at(robot), progress.place) > progress.margin + _MARGIN_ROUNDING]
+                if self._past_gate(robot) > progress.margin + _MARGIN_ROUNDING]
 
     # ---------------------------------------------------------------- what they do
 
@@ -216,10 +218,14 @@ class Executor:
             progress.commitment = math.inf
             progress.committed_from = {}
 
-    def follow(self, request: PlanRequest, answer: PlanAnswer, begin: float, now: float) -> None:
+    def follow(self, request: PlanRequest, answer: PlanAnswer, begin: float, now: float) -> list[str]:
         """Goes on with the plan for the request that was committed to, which began at `begin`. What robots have done
-        since then is done in the new plan."""
+        since then is done in the new plan. Returns the robots that cannot stop any more before a gate of it that is
+        closed, as it was not known when they drove off. Then nothing changes: robots go on to the ends of their
+        commitments, as the gates of their old plan allow, and the new one may be followed later."""
         old, committed_at, begins_at = self._robots, self._committed_at, self._begins_at
+        start, plan = self.start, self.plan
+        ways = {robot: self._way_to_stop(robot) for robot in old}
         self._begin(request, answer, begin)
         for robot, progress in self._robots.items():
             if robot in old:
@@ -227,6 +233,10 @@ class Executor:
                 progress.place = progress.course.after(begins_at.get(robot, 0.0), done, self._near)
                 progress.report, progress.reported = old[robot].report, old[robot].reported
             progress.counted = now
+        too_fast = [robot for robot in self._robots if self._past_gate(robot) + ways.get(robot, 0.0) > self._near]
+        if too_fast:
+            self._robots, self.start, self.plan = old, start, plan
+        return too_fast
 
     # ---------------------------------------------------------------- inside
 
@@ -234,7 +244,7 @@ class Executor:
         dependencies = answer.get("dependencies")
         if dependencies is None:
             raise ValueError("the plan has no dependencies; ask for them with options.dependencies")
-        self.start = begin  # of the plan: its time 0
+        self.start = begin
         self.plan += 1
         plans = {plan["robot"]: plan for plan in answer["plans"]}
         invalid = {entry["robot"] for entry in answer["unplanned"] if entry["reason"] == "invalid"}
@@ -275,6 +285,24 @@ class Executor:
         while progress.next_gate < len(gates) and self._is_open(gates[progress.next_gate]):
             progress.next_gate += 1
         return gates[progress.next_gate].place if progress.next_gate < len(gates) else math.inf
+
+    def _past_gate(self, robot: str) -> float:
+        """Metres by which the robot has passed its first closed gate; negative before it."""
+        progress, gate = self._robots[robot], self._closed_at(robot)
+        driven = progress.course.driven
+        return driven(gate, progress.place) - driven(progress.place, min(gate, progress.course.end))
+
+    def _way_to_stop(self, robot: str) -> float:
+        """Metres that the robot drives if it is told to stop: what it needs to brake, or less where it had to stand
+        sooner anyway, as it brakes for that already."""
+        progress, speed = self._robots[robot], self._reported_speed(robot)
+        course, place, gate = progress.course, progress.place, self._closed_at(robot)
+        deceleration = self._brakes(robot, course.index(place))
+        if math.isinf(deceleration):
+            return 0.0
+        needed = speed * self._reaction + speed * speed / (2.0 * deceleration)
+        is_before_stand = place < min(gate, course.end) and course.actions[course.index(place)]["type"] == "translate"
+        return min(needed, course.room(place, gate)) if is_before_stand else needed
 
     def _limit(self, robot: str) -> Place:
         """The place that the robot may reach and not pass."""
@@ -375,15 +403,24 @@ class Executor:
     def _speed(self, robot: str, place: Place, room: float) -> float:
         """At most as planned, and so that the robot can stop within the room, and is as slow as planned when the next
         action begins."""
-        of_robots, report, course = self._deceleration, self._robots[robot].report, self._robots[robot].course
+        course = self._robots[robot].course
         index = course.index(place + _REACHED)
-        planned, given = course.planned_speed(index), of_robots.get(robot) if isinstance(of_robots, Mapping) else of_robots
-        deceleration = course.deceleration(index) if given is None else given
+        planned, deceleration = course.planned_speed(index), self._brakes(robot, index)
         if math.isinf(deceleration) or course.actions[index]["type"] != "translate":
             return planned
-        speed = abs(report.speed) if report is not None and report.speed is not None else 0.0
         room = min(room, course.room_at_speed(place, deceleration))
-        return min(planned, _braking_speed(room, speed, deceleration, self._reaction))
+        return min(planned, _braking_speed(room, self._reported_speed(robot), deceleration, self._reaction))
+
+    def _brakes(self, robot: str, index: int) -> float:
+        """Metres per second squared in an action, infinite if the robot needs no way to stop."""
+        of_robots = self._deceleration
+        given = of_robots.get(robot) if isinstance(of_robots, Mapping) else of_robots
+        return self._robots[robot].course.deceleration(index) if given is None else given
+
+    def _reported_speed(self, robot: str) -> float:
+        """Metres per second; 0 if it is not known."""
+        report = self._robots[robot].report
+        return abs(report.speed) if report is not None and report.speed is not None else 0.0
 
     def _state(self, robot: str, progress: _Progress, now: float) -> RobotState:
         course = progress.course

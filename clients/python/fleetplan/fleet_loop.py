@@ -36,6 +36,7 @@ class _Round:
     committed: bool = False  # robots to what it commits them to
     passed: Sequence[str] = ()  # robots that were further by then
     future: "Future[PlanAnswer] | None" = None
+    given_up: float = math.inf  # when its plan is, if robots cannot obey it before
 
 
 class FleetLoop(PlanningLoop):
@@ -153,28 +154,33 @@ class FleetLoop(PlanningLoop):
             round_.passed = self._executor.commit(round_.request, round_.places, round_.begin)
 
     def _take_plan(self, now: float) -> None:
-        """Goes on with the next plan if it is ready."""
+        """Goes on with the next plan if it is ready and robots can obey its gates. If they cannot yet, as another one
+        is late, they execute their commitments, for a period at most."""
         round_ = self._round
         if round_ is None or round_.future is None or not round_.future.done():
             return
         self._commit_robots()
         if now < round_.ready - _SAME_TIME:
             return
-        self._round = None
         try:
             answer = round_.future.result()
             if round_.passed:
                 raise FleetplanError(f"{round_.passed} passed the ends of their commitments before these were known")
+            if self._executor is None:
+                self._executor = Executor(self.request, answer, now, early=False, deceleration=self._deceleration,
+                                          reaction=self._reaction, near=self._near)
+            elif round_.request is not None:
+                if too_fast := self._executor.follow(round_.request, answer, round_.begin, now):
+                    round_.given_up = min(round_.given_up, now + self._period)
+                    if now < round_.given_up - _SAME_TIME:
+                        return
+                    raise FleetplanError(f"{too_fast} could not stop before gates of the plan")
+                self.request = round_.request
         except FleetplanError as error:
+            self._round = None
             self._fail(error)
             return
-        self.failure, self._given, self.answer = None, {}, answer
-        if self._executor is None:
-            self._executor = Executor(self.request, answer, now, early=False, deceleration=self._deceleration,
-                                      reaction=self._reaction, near=self._near)
-        elif round_.request is not None:
-            self.request = round_.request
-            self._executor.follow(round_.request, answer, round_.begin, now)
+        self._round, self.failure, self._given, self.answer = None, None, {}, answer
 
     def _fail(self, error: FleetplanError) -> None:
         """Goes on with the plan that there is."""
