@@ -476,11 +476,16 @@ class Courses(unittest.TestCase):
         course = Course(pose(0.0), actions(("translate", 1.0), ("rotate", 1.0)))
         self.assertEqual(course.after(0.0, [Move("translate", 3.0)]), 1.0)
 
-    def test_turns_that_are_steered_need_not_be_on_the_other_course(self):
-        course = Course(pose(0.0), actions(("translate", 1.0), ("rotate", 0.04), ("translate", 2.0)))
+    def test_small_turns_need_not_be_on_the_other_course(self):
+        course = Course(pose(0.0), actions(("translate", 1.0), ("rotate", 0.2), ("translate", 2.0)))
         self.assertEqual(course.after(0.0, [Move("translate", 2.0)]), 2.5)
+        self.assertEqual(course.after(0.0, [Move("translate", 1.005)], 0.01), 1.0, "it may not have turned yet")
         straight = Course(pose(0.0), actions(("translate", 4.0)))
-        self.assertEqual(straight.after(0.0, [Move("translate", 1.0), Move("rotate", 0.04), Move("translate", 1.0)]), 0.5)
+        self.assertEqual(straight.after(0.0, [Move("translate", 1.0), Move("rotate", 0.2), Move("translate", 1.0)]), 0.5)
+        turned = Course(pose(0.0), actions(("translate", 1.0), ("rotate", 0.8), ("translate", 2.0)))
+        moves = [Move("translate", 1.0), Move("rotate", 0.9), Move("translate", 1.0)]
+        self.assertEqual(turned.after(0.0, moves), 2.5)
+        self.assertEqual(turned.after(0.0, [Move("translate", 2.0)]), 1.0)
 
     def test_a_little_more_than_the_moves_before_a_service_does_not_end_it(self):
         course = Course(pose(0.0), actions(("translate", 1.0), ("rotate", 0.1), ("wait", 7.0, 0), ("rotate", 3.0)))

@@ -15,6 +15,7 @@ Place: TypeAlias = float
 
 _STEERED = 0.05  # radians: a turn for which a robot under way need not stop, as plans from measured poses have them
 _SAME_TIME = 1e-6  # seconds: rounding of times
+_TURNED = 0.25  # radians: by less, turns of the same way differ, which begins where the robot is measured
 _ON_PLACE = 1e-9  # of whole progress, metres, radians or seconds: rounding
 
 
@@ -250,21 +251,21 @@ class Course:
 
     def after(self, place: Place, moves: Sequence[Move], near: float = _ON_PLACE) -> Place:
         """Where a robot is after what it has done on another course that begins in the same way. One of them may have
-        moves of less than `near`, and turns that are steered, that the other does not have."""
+        moves of less than `near`, and small turns, that the other does not have."""
         for move in moves:
             left = move.amount
             while left > _ON_PLACE and place < self.end:
                 index = self.index(place)
                 kind, amount = self.actions[index]["type"], self.amount(index)
                 rest = (index + 1 - place) * amount
-                is_small = move.type != "wait" and left <= _least(move.type, near)
+                is_small = move.type != "wait" and left <= _least(move.type, near, _TURNED)
                 if kind == move.type and left < rest - _ON_PLACE:
                     place, left = place + left / amount, 0.0
                 elif kind == move.type:
                     place, left = index + 1.0, left - rest
                 elif is_small and self.actions[index].get("goal") is not None:
                     break  # the service has not been left for so little
-                elif kind == "wait" or amount <= _least(kind, near):
+                elif kind == "wait" or amount <= _least(kind, near, _STEERED if is_small else _TURNED):
                     place = index + 1.0
                 elif move.type == "wait" or is_small:
                     break  # what is not on this course
@@ -357,9 +358,9 @@ class Course:
                 and index + 1 < len(self.actions) and self.actions[index + 1]["type"] == "translate")
 
 
-def _least(kind: str, near: float) -> float:
+def _least(kind: str, near: float, turn: float) -> float:
     """Metres, radians or seconds: less is not noticed."""
-    return max(near, _STEERED) if kind == "rotate" else near
+    return max(near, turn) if kind == "rotate" else near
 
 
 def _amount(action: Action) -> float:
