@@ -6,7 +6,7 @@ import unittest
 
 from support import PROJECT, met, service
 
-from fleetplan import Client, ConnectionFailed, FleetLoop, RequestRefused, ServiceUnavailable
+from fleetplan import Client, ConnectionFailed, FleetLoop, PlanDropped, RequestRefused, ServiceUnavailable
 from fleetplan.simulation import SimulatedFleet
 
 
@@ -155,12 +155,12 @@ class Loops(unittest.TestCase):
                     if loop.answer is not before[0]:
                         taken.append(fleet.now)
                     if loop.failure not in (None, before[1]):
-                        failures.append((fleet.now, str(loop.failure)))
+                        failures.append((fleet.now, type(loop.failure), str(loop.failure)))
                     self.assertEqual(loop.overran, [])
                     fleet.drive(0.125)
                 self.assertEqual(taken, times)
-                is_given_up = len(times) == 3
-                self.assertEqual(failures, [(3.5, "['a'] could not stop before gates of the plan")] if is_given_up else [])
+                dropped = [(3.5, PlanDropped, "['a'] could not stop before gates of the plan")]
+                self.assertEqual(failures, dropped if len(times) == 3 else [])
                 for robot in "ab":
                     self.assertAlmostEqual(fleet.pose(robot)["x"], 0.5 + fleet.now - 0.5, delta=0.05)
 

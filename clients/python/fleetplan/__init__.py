@@ -8,12 +8,12 @@
 """
 
 from fleetplan.client import Client
-from fleetplan.errors import (ConnectionFailed, Fault, FleetplanError, ProblemError, RequestRefused,
+from fleetplan.errors import (ConnectionFailed, Fault, FleetplanError, PlanDropped, ProblemError, RequestRefused,
                               ServiceUnavailable)
 from fleetplan.executor import Executor, Instruction, Report
 from fleetplan.fleet_loop import FleetLoop
 
 __all__ = [
-    "Client", "ConnectionFailed", "Executor", "Fault", "FleetLoop", "FleetplanError", "Instruction", "ProblemError",
-    "Report", "RequestRefused", "ServiceUnavailable",
+    "Client", "ConnectionFailed", "Executor", "Fault", "FleetLoop", "FleetplanError", "Instruction", "PlanDropped",
+    "ProblemError", "Report", "RequestRefused", "ServiceUnavailable",
 ]

@@ -12,6 +12,11 @@ class ConnectionFailed(FleetplanError):
     """There is no answer: nobody listens, the connection ended, or the server was silent for too long."""
 
 
+class PlanDropped(FleetplanError):
+    """Robots could not stop any more before closed gates of a plan that was made while they drove, for so long that the
+    next plan is better."""
+
+
 @dataclass(frozen=True)
 class Fault:
     """One fault of a request."""

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from fleetplan.client import Client
 from fleetplan.course import Place, limits_of
-from fleetplan.errors import FleetplanError, RequestRefused
+from fleetplan.errors import FleetplanError, PlanDropped, RequestRefused
 from fleetplan.executor import Executor, Instruction, Report
 from fleetplan.planning_loop import PlanningLoop
 from fleetplan.types import AdvanceAnswer, Hold, NewGoals, PlanAnswer, PlanOptions, PlanRequest
@@ -36,7 +36,7 @@ class _Round:
     committed: bool = False  # robots to what it commits them to
     passed: Sequence[str] = ()  # robots that were further by then
     future: "Future[PlanAnswer] | None" = None
-    given_up: float = math.inf  # when its plan is, if robots cannot obey it before
+    dropped_from: float = math.inf  # its plan, unless robots can obey it before
 
 
 class FleetLoop(PlanningLoop):
@@ -171,10 +171,10 @@ class FleetLoop(PlanningLoop):
                                           reaction=self._reaction, near=self._near)
             elif round_.request is not None:
                 if too_fast := self._executor.follow(round_.request, answer, round_.begin, now):
-                    round_.given_up = min(round_.given_up, now + self._period)
-                    if now < round_.given_up - _SAME_TIME:
+                    round_.dropped_from = min(round_.dropped_from, now + self._period)
+                    if now < round_.dropped_from - _SAME_TIME:
                         return
-                    raise FleetplanError(f"{too_fast} could not stop before gates of the plan")
+                    raise PlanDropped(f"{too_fast} could not stop before gates of the plan")
                 self.request = round_.request
         except FleetplanError as error:
             self._round = None

@@ -17,7 +17,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE.parents[2] / "clients/python"), str(HERE.parents[1] / "python"), str(HERE)]
 
 from disturbances import Disturbances, Rates, Services  # noqa: E402
-from fleetplan import Client, FleetLoop, FleetplanError, RequestRefused  # noqa: E402
+from fleetplan import Client, FleetLoop, FleetplanError, PlanDropped, RequestRefused  # noqa: E402
 from fleetplan.simulation import SimulatedFleet  # noqa: E402
 from support import service  # noqa: E402
 from tasks import Tasks  # noqa: E402
@@ -112,7 +112,9 @@ class Day:
         except RequestRefused as error:
             self.failures.append(error)
             return []
-        if self.loop.failure is not None and self.loop.failure is not failed:
+        if isinstance(self.loop.failure, PlanDropped) and self.loop.failure is not failed:
+            self.rounds["dropped"] += 1
+        elif self.loop.failure is not None and self.loop.failure is not failed:
             self.failures.append(self.loop.failure)
         if self.loop.answer is not before:
             self.rounds[self.loop.answer["status"]] += 1
@@ -179,7 +181,7 @@ def main(program, words):
     pathlib.Path(arguments.output, "day.json").write_text(json.dumps(report, indent=1) + "\n")
     for name, value in report.items():
         print(f"{name}: {value:.3f}" if isinstance(value, float) else f"{name}: {value}")
-    wrong = [name for name in ("overlaps", "goals lost", "failures", "starved") if report[name]]
+    wrong = [name for name in ("overlaps", "goals lost", "failures", "overran", "starved") if report[name]]
     return 1 if wrong or report["done"] < report["offered"] else 0
 
 
