@@ -112,31 +112,33 @@ Instance::Instance(const Problem& problem, const PlanOptions& options,
       lattices_(lattices_of(problem, options)),
       contacts_(endpoints(problem, lattices_, options.inflation)),
       fixed_reservations_(std::move(fixed_reservations)) {
+  const bool any_drive_zone = std::any_of(problem.zones().begin(), problem.zones().end(),
+                                          [](const Zone& zone) { return zone.type != Zone::Type::blocked; });
   for (std::size_t i = 0; i < size(); ++i) {
     const Robot& robot = problem.robots()[i];
     const Itinerary& itinerary = itineraries_.emplace_back(itinerary_of(robot));
     stages_.emplace_back();
+    const std::optional<DriveZones> zones =
+        any_drive_zone ? std::optional<DriveZones>(std::in_place, problem.zones(), i, robot) : std::nullopt;
     if (!core::changes_load(robot)) {
-      stages_[i].push_back(make_stage(i, core::first_load(robot), nullptr, stop));
+      stages_[i].push_back(make_stage(i, core::first_load(robot), zones, stop));
       continue;
     }
     const std::vector<Load> loads = loads_of(robot);
     const auto first = loads.begin() + static_cast<std::ptrdiff_t>(itinerary.first_goal);
     const bool is_one = std::all_of(first, loads.end(), [&](const Load& load) { return load == *first; });
     std::map<Load, Stage> known;
-    const DriveZones* zones = nullptr;
     for (auto load = first; load != (is_one ? first + 1 : loads.end()); ++load) {
       const auto [stage, is_new] = known.try_emplace(*load);
       if (is_new) stage->second = make_stage(i, *load, zones, stop);
-      if (stage->second.zones != nullptr) zones = stage->second.zones;
       stages_[i].push_back(stage->second);
     }
   }
 }
 
-/// `zones`: those of the robot with another load, or null.
-Instance::Stage Instance::make_stage(std::size_t index, const Load& load, const DriveZones* zones,
-                                     const StopCondition& stop) {
+/// `zones`: those of the robot with its first load, if there are any.
+Instance::Stage Instance::make_stage(std::size_t index, const Load& load,
+                                     const std::optional<DriveZones>& zones, const StopCondition& stop) {
   const Motion motion = motion_of(robot(index), options_, load);
   const StaticMap& map = *problem_.map_of(index);
   const Lattice& lattice = this->lattice(index);
@@ -145,18 +147,11 @@ Instance::Stage Instance::make_stage(std::size_t index, const Load& load, const 
     auto finer = map.finer_vertices(lattice, motion.radius, stop);
     space = std::make_unique<FreeSpace>(lattice, map.sight(), motion.radius, std::move(finer));
   }
-  return {motion, load, space.get(), add_zones(index, load, zones)};
-}
-
-/// Returns the zones that limit how the robot drives with this load; null if there are none.
-const DriveZones* Instance::add_zones(std::size_t index, const Load& load, const DriveZones* of_other_load) {
-  const bool any = std::any_of(problem_.zones().begin(), problem_.zones().end(),
-                               [](const Zone& zone) { return zone.type != Zone::Type::blocked; });
-  if (!any) return nullptr;
-  auto zones = std::make_unique<const DriveZones>(
-      of_other_load != nullptr ? of_other_load->with(load)
-                               : DriveZones(problem_.zones(), index, robot(index), load));
-  return zones->empty() ? nullptr : drive_zones_.emplace_back(std::move(zones)).get();
+  Stage stage{motion, load, space.get(), nullptr};
+  if (!zones) return stage;
+  auto loaded = std::make_unique<const DriveZones>(zones->with(load));
+  if (!loaded->empty()) stage.zones = drive_zones_.emplace_back(std::move(loaded)).get();
+  return stage;
 }
 
 LargestDisk Instance::largest_disk(std::size_t index) const {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <optional>
 #include <tuple>
 #include <vector>
 
@@ -105,8 +106,8 @@ class Instance {
     const std::vector<Stage>& all = stages_[index];
     return all[all.size() > 1 ? stage : 0];
   }
-  Stage make_stage(std::size_t index, const Load& load, const DriveZones* zones, const StopCondition& stop);
-  const DriveZones* add_zones(std::size_t index, const Load& load, const DriveZones* of_other_load);
+  Stage make_stage(std::size_t index, const Load& load, const std::optional<DriveZones>& zones,
+                   const StopCondition& stop);
 
   const Problem& problem_;
   PlanOptions options_;
