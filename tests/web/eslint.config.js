@@ -9,6 +9,13 @@ export default [
   {
     rules: {
       eqeqeq: "error",
+      "no-restricted-properties": [
+        "error",
+        ...["toReversed", "toSorted", "toSpliced"].map((property) => ({
+          property,
+          message: "Debian 12's Node and older browsers do not have it; change a copy instead.",
+        })),
+      ],
       "no-unused-vars": ["error", { varsIgnorePattern: "^_$", ignoreRestSiblings: true }],
       "no-var": "error",
       "object-shorthand": "error",

@@ -105,7 +105,7 @@ export class TravelField {
    * square nearby as its own time is not known; null if the robot fits nowhere in it, or if nothing is known.
    */
   timeTo(column, row) {
-    for (const stride of STRIDES.toReversed()) {
+    for (const stride of [...STRIDES].reverse()) {
       const [across, down] = [column, row].map((place) => place - (place % stride) + Math.floor(stride / 2));
       if (across >= this.columns || down >= this.rows) continue;
       const seconds = this.#seconds[down * this.columns + across];
