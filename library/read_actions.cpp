@@ -7,7 +7,6 @@
 #include "core/geometry/angle.h"
 #include "core/geometry/speed_profile.h"
 #include "core/geometry/tolerance.h"
-#include "core/model/itinerary.h"
 #include "core/model/loads.h"
 
 namespace fleetplan::library {
@@ -109,8 +108,7 @@ std::vector<core::Action> read_actions(const std::vector<Action>& actions, const
   core::Pose before = robot.start;
   double now = 0.0;
   std::optional<double> speed;
-  const std::vector<core::Load> loads = core::loads_of(robot);
-  core::GoalsOnTheWay served(robot);
+  core::LoadOnTheWay on_the_way(robot);
   for (std::size_t k = 0; k < actions.size(); ++k) {
     const auto refuse = [&](const std::string& why) {
       faults.add(item(place, k), "The action " + why + '.');
@@ -128,11 +126,11 @@ std::vector<core::Action> read_actions(const std::vector<Action>& actions, const
     action.from = before;
     if (action.type != Type::translate) action.to.position = action.from.position;
     if (action.type != Type::rotate) action.to.theta = action.from.theta;
-    const core::Load& load = loads[served.count()];
+    const core::Load& load = on_the_way.load();
     if (const char* why = impossible(action, robot, load)) return refuse(why);
     core::set_inertia(action, robot, load);
     if (const char* why = unfit(action, robot, load, speed, k < measured)) return refuse(why);
-    served.execute(action);
+    on_the_way.execute(action);
     speed.reset();
     if (action.profile || action.type != Type::translate) speed = action.profile ? action.profile->end : 0.0;
     before = action.to;

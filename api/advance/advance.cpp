@@ -45,12 +45,6 @@ std::optional<std::size_t> first_new_radius(const core::Robot& robot, std::size_
   return std::nullopt;
 }
 
-/// Whether the robot has another load after this goal.
-bool has_load_after(const core::Goal& goal) {
-  return goal.radius_after || goal.linear_speed_after || goal.linear_acceleration_after ||
-         goal.linear_deceleration_after;
-}
-
 /// Gives the load after a goal that is served, once.
 void take_load(core::Goal& goal, core::Load& load) {
   load = core::load_after(load, goal);
@@ -96,10 +90,9 @@ GoalsLeft goals_left(const core::Robot& robot, const Execution& execution, doubl
   if (not_before > 0.0) due = std::max(due, not_before);
   left.age = std::clamp(at - due, 0.0, kLongestTime);
   core::Goal& last = left.goals.back();
-  const bool has_load = has_load_after(last);
-  const bool matters = has_load || execution.stays_when_served;
+  const bool matters = last.has_load() || execution.stays_when_served;
   const bool is_served = matters && execution.planned && has_served_last(robot, actions, progress);
-  if (is_served && has_load) take_load(last, left.load);
+  if (is_served) take_load(last, left.load);
   if (is_served && execution.stays_when_served) {
     left.visited = robot.goal_count();
     left.goals.clear();

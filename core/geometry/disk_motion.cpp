@@ -67,45 +67,64 @@ Parabola relative_motion(const MovingDisk& a, const MovingDisk& b) {
           0.5 * duration * duration * (a.acceleration() - b.acceleration()), begin, end};
 }
 
-/// About the share of its time at which the parabola is nearest to the origin: the best one of a few,
-/// improved by Newton's method.
-double estimated_nearest_share(const Parabola& motion) {
+/// A parabola by the share x of its time, in [0, 1]: from + x slope + x^2 bend; and its squared distance from
+/// the origin.
+struct ByShare {
+  explicit ByShare(const Parabola& motion)
+      : from(motion.from), slope(motion.to - motion.from - motion.bend), bend(motion.bend) {}
+
+  Position at(double x) const { return from + x * (slope + x * bend); }
+  double square(double x) const { return at(x).squaredNorm(); }
+  /// Half of the derivative of the square.
+  double rise(double x) const { return at(x).dot(slope + 2.0 * x * bend); }
+  /// Half of its second derivative: constant + 2 linear x + quadratic x^2.
+  struct Curvature {
+    double constant;
+    double linear;
+    double quadratic;
+    double at(double x) const { return constant + x * (2.0 * linear + x * quadratic); }
+  };
+  Curvature curvature() const {
+    return {slope.squaredNorm() + 2.0 * from.dot(bend), 3.0 * slope.dot(bend), 6.0 * bend.squaredNorm()};
+  }
+
+  Position from;
+  Position slope;
+  Position bend;
+};
+
+/// About the share at which it is nearest to the origin: the best one of a few, improved by Newton's method.
+double estimated_nearest_share(const ByShare& motion) {
   constexpr int kSteps = 4;
-  const Position slope = motion.to - motion.from - motion.bend;
-  const auto at = [&](double x) -> Position { return motion.from + x * (slope + x * motion.bend); };
+  const ByShare::Curvature curvature = motion.curvature();
   double best = 0.0;
-  double least = motion.from.squaredNorm();
+  double least = motion.square(0.0);
   for (const double x : {0.25, 0.5, 0.75, 1.0}) {
-    const double square = at(x).squaredNorm();
+    const double square = motion.square(x);
     if (square < least) {
       least = square;
       best = x;
     }
   }
   for (int k = 0; k < kSteps; ++k) {
-    const Position speed = slope + 2.0 * best * motion.bend;
-    const Position here = at(best);
-    const double curvature = speed.squaredNorm() + 2.0 * here.dot(motion.bend);
-    if (!(curvature > 0.0)) break;
-    best = std::clamp(best - here.dot(speed) / curvature, 0.0, 1.0);
+    const double bends = curvature.at(best);
+    if (!(bends > 0.0)) break;
+    best = std::clamp(best - motion.rise(best) / bends, 0.0, 1.0);
   }
   return best;
 }
 
-/// Whether some point of the parabola is nearer than `reach` to the origin, if its squared distance is
-/// convex: then it lies above its tangents. None if it is not, or if that does not decide it.
-std::optional<bool> convex_comes_near(const Parabola& motion, double reach) {
-  const Position slope = motion.to - motion.from - motion.bend;
-  const double c = slope.squaredNorm() + 2.0 * motion.from.dot(motion.bend);
-  const double b = 3.0 * slope.dot(motion.bend);
-  const double a = 6.0 * motion.bend.squaredNorm();  // half of the second derivative is c + 2 b x + a x^2
-  const double lowest = a > 0.0 ? std::clamp(-b / a, 0.0, 1.0) : 0.0;
-  if (!(c + lowest * (2.0 * b + lowest * a) > 0.0)) return std::nullopt;
+/// Whether some point of it is nearer than `reach` to the origin, if its square is convex: then that lies
+/// above its tangents. None if it is not, or if that does not decide it.
+std::optional<bool> convex_comes_near(const ByShare& motion, double reach) {
+  const ByShare::Curvature curvature = motion.curvature();
+  const bool bends = curvature.quadratic > 0.0;
+  const double lowest = bends ? std::clamp(-curvature.linear / curvature.quadratic, 0.0, 1.0) : 0.0;
+  if (!(curvature.at(lowest) > 0.0)) return std::nullopt;
   const double x = estimated_nearest_share(motion);
-  const Position here = motion.from + x * (slope + x * motion.bend);
-  const double square = here.squaredNorm();
+  const double square = motion.square(x);
   if (square < reach * reach) return true;
-  const double rise = 2.0 * here.dot(slope + 2.0 * x * motion.bend);
+  const double rise = 2.0 * motion.rise(x);
   const double least = square + std::min(-rise * x, rise * (1.0 - x));
   return least >= reach * (reach - kParabolaError) ? std::optional(false) : std::nullopt;
 }
@@ -119,7 +138,7 @@ bool comes_near(const Parabola& motion, double reach) {
   if (distance >= reach + sag) return false;
   if (distance + sag < reach) return true;
   if (sag <= kParabolaError) return distance < reach;
-  if (const auto near = convex_comes_near(motion, reach)) return *near;
+  if (const auto near = convex_comes_near(ByShare(motion), reach)) return *near;
   return comes_near(motion.half(false), reach) || comes_near(motion.half(true), reach);
 }
 
@@ -178,8 +197,9 @@ struct Passing {
 /// The disks have a common time, or at least an instant.
 Passing estimated_passing(const MovingDisk& mine, const MovingDisk& other) {
   const Parabola motion = relative_motion(mine, other);
-  const double x = estimated_nearest_share(motion);
-  const Position gap = motion.from + x * (motion.to - motion.from - motion.bend + x * motion.bend);
+  const ByShare by_share(motion);
+  const double x = estimated_nearest_share(by_share);
+  const Position gap = by_share.at(x);
   const double t = motion.t_begin + x * (motion.t_end - motion.t_begin);
   // Where I begin or end, the other one is elsewhere later; at all other times, I am. In between both agree.
   const bool is_at_my_end = (x == 0.0 && mine.t_start >= other.t_start) ||  //
@@ -343,16 +363,13 @@ double change_between(double first, double last, const IsBefore& is_before) {
   return last;
 }
 
-/// The squared distance of a parabola from the origin, by the share x of its time, in [0, 1]: that of
-/// from + x slope + x^2 bend.
+/// Where the squared distance of a parabola from the origin is least, or passes a value, by the share of its
+/// time.
 class SquaredDistance {
  public:
-  explicit SquaredDistance(const Parabola& motion)
-      : from_(motion.from), slope_(motion.to - motion.from - motion.bend), bend_(motion.bend) {
-    add_extrema();
-  }
+  explicit SquaredDistance(const Parabola& motion) : motion_(motion) { add_extrema(); }
 
-  double at(double x) const { return (from_ + x * (slope_ + x * bend_)).squaredNorm(); }
+  double at(double x) const { return motion_.square(x); }
 
   double nearest_share() const {
     return *std::min_element(borders_.begin(), borders_.begin() + count_,
@@ -370,14 +387,9 @@ class SquaredDistance {
   }
 
  private:
-  /// Half of its derivative.
-  double rise(double x) const { return (from_ + x * (slope_ + x * bend_)).dot(slope_ + 2.0 * x * bend_); }
-
   /// Its derivative, a cubic, has at most one root on each side of its own extrema.
   void add_extrema() {
-    const double c = slope_.squaredNorm() + 2.0 * from_.dot(bend_);
-    const double b = 3.0 * slope_.dot(bend_);
-    const double a = 6.0 * bend_.squaredNorm();  // the second derivative is c + 2 b x + a x^2
+    const auto [c, b, a] = motion_.curvature();
     std::array<double, 4> parts{0.0, 0.0, 0.0, 1.0};
     const double discriminant = b * b - a * c;
     if (discriminant > 0.0) {
@@ -388,17 +400,15 @@ class SquaredDistance {
       if (parts[1] > parts[2]) std::swap(parts[1], parts[2]);
     }
     for (std::size_t k = 1; k < parts.size(); ++k) {
-      const bool falls = rise(parts[k - 1]) < 0.0;
-      if (falls == (rise(parts[k]) < 0.0)) continue;
-      const auto is_before = [&](double x) { return (rise(x) < 0.0) == falls; };
+      const bool falls = motion_.rise(parts[k - 1]) < 0.0;
+      if (falls == (motion_.rise(parts[k]) < 0.0)) continue;
+      const auto is_before = [&](double x) { return (motion_.rise(x) < 0.0) == falls; };
       borders_[count_++] = change_between(parts[k - 1], parts[k], is_before);
     }
     borders_[count_++] = 1.0;
   }
 
-  Position from_;
-  Position slope_;
-  Position bend_;
+  ByShare motion_;
   /// It is monotone between two of the first `count_`, which ascend from 0 to 1.
   std::array<double, 5> borders_{};
   std::ptrdiff_t count_ = 1;

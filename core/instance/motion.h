@@ -41,8 +41,5 @@ inline Motion motion_of(const Robot& robot, const PlanOptions& options, const Lo
           load.linear_inertia(),
           robot.angular_inertia()};
 }
-inline Motion motion_of(const Robot& robot, const PlanOptions& options) {
-  return motion_of(robot, options, first_load(robot));
-}
 
 }  // namespace fleetplan::core

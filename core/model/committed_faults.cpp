@@ -165,16 +165,16 @@ class CommittedFaults {
   /// Adds the first action that breaks the rule of a zone. An action that is slower than allowed is no fault.
   void check_zones(std::size_t index) {
     const Robot& robot = robots_[index];
-    const std::vector<Load> loads = loads_of(robot);
-    GoalsOnTheWay served(robot);
-    DriveZones zones(conditions_.zones, index, robot, loads[served.count()]);
+    if (robot.committed.empty()) return;
+    LoadOnTheWay on_the_way(robot);
+    DriveZones zones(conditions_.zones, index, robot, on_the_way.load());
+    if (zones.empty() && !changes_load(robot)) return;
     for (const Action& action : robot.committed) {
       if (stop_.met()) return;
       const auto zone = zones.broken_by(action);
-      const std::size_t before = served.count();
-      served.execute(action);
-      const bool has_other_load = loads[served.count()] != loads[before];
-      if (has_other_load) zones = zones.with(loads[served.count()]);
+      const Load before = on_the_way.load();
+      on_the_way.execute(action);
+      if (on_the_way.load() != before) zones = zones.with(on_the_way.load());
       if (!zone) continue;
       ProblemFault fault{ProblemFault::Kind::committed_in_zone, index, index, 0.0, 0, action.t_start};
       fault.zone = zone;

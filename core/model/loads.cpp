@@ -12,6 +12,11 @@ namespace {
 /// Seconds; far above the rounding of times, far below what any robot does.
 constexpr double kRounding = 1e-6;
 
+template <class Condition>
+bool any_goal(const Robot& robot, const Condition& condition) {
+  return (robot.goal && condition(*robot.goal)) || std::any_of(robot.via.begin(), robot.via.end(), condition);
+}
+
 }  // namespace
 
 Load first_load(const Robot& robot) {
@@ -36,9 +41,9 @@ std::vector<Load> loads_of(const Robot& robot) {
 
 Load load_during(const Robot& robot, std::span<const Action> actions, std::size_t index) {
   if (!changes_load(robot)) return first_load(robot);
-  GoalsOnTheWay served(robot);
-  for (const Action& action : actions.first(index)) served.execute(action);
-  return loads_of(robot)[served.count()];
+  LoadOnTheWay on_the_way(robot);
+  for (const Action& action : actions.first(index)) on_the_way.execute(action);
+  return on_the_way.load();
 }
 
 void set_load(Robot& robot, const Load& load) {
@@ -50,8 +55,7 @@ void set_load(Robot& robot, const Load& load) {
 
 bool changes_load(const Robot& robot) {
   const Load first = first_load(robot);
-  const auto changes = [&](const Goal& goal) { return load_after(first, goal) != first; };
-  return (robot.goal && changes(*robot.goal)) || std::any_of(robot.via.begin(), robot.via.end(), changes);
+  return any_goal(robot, [&](const Goal& goal) { return load_after(first, goal) != first; });
 }
 
 double fastest_speed(const Robot& robot) {
@@ -73,11 +77,10 @@ void set_inertia(std::vector<Action>& actions, const Robot& robot) {
     for (Action& action : actions) set_inertia(action, robot, first_load(robot));
     return;
   }
-  const std::vector<Load> loads = loads_of(robot);
-  GoalsOnTheWay served(robot);
+  LoadOnTheWay on_the_way(robot);
   for (Action& action : actions) {
-    set_inertia(action, robot, loads[served.count()]);
-    served.execute(action);
+    set_inertia(action, robot, on_the_way.load());
+    on_the_way.execute(action);
   }
 }
 
@@ -88,10 +91,8 @@ std::vector<double> radii_of(const Robot& robot) {
 }
 
 bool changes_radius(const Robot& robot) {
-  const auto changes = [&](const Goal& goal) {
-    return goal.radius_after && *goal.radius_after != robot.radius;
-  };
-  return (robot.goal && changes(*robot.goal)) || std::any_of(robot.via.begin(), robot.via.end(), changes);
+  return any_goal(robot,
+                  [&](const Goal& goal) { return goal.radius_after.value_or(robot.radius) != robot.radius; });
 }
 
 double largest_radius(const Robot& robot) {

@@ -40,6 +40,23 @@ Load first_load(const Robot& robot);
 Load load_after(const Load& before, const Goal& goal);
 /// By the number of goals that it has served: as many as it has goals, and one more.
 std::vector<Load> loads_of(const Robot& robot);
+/// The load of a robot that executes its actions one after the other, contiguous from t = 0 in its start.
+class LoadOnTheWay {
+ public:
+  /// `robot` outlives this object.
+  explicit LoadOnTheWay(const Robot& robot) : loads_(loads_of(robot)), served_(robot) {}
+
+  /// That with which it executes the next action.
+  const Load& load() const { return loads_[served_.count()]; }
+  /// The number of goals that it has served.
+  std::size_t served() const { return served_.count(); }
+  void execute(const Action& action) { served_.execute(action); }
+
+ private:
+  std::vector<Load> loads_;  // by the number of goals served
+  GoalsOnTheWay served_;
+};
+
 /// That with which it executes one of its actions, which are contiguous from t = 0 in its start.
 Load load_during(const Robot& robot, std::span<const Action> actions, std::size_t index);
 /// Makes it the one that the robot has.

@@ -31,6 +31,11 @@ struct Goal {
   std::optional<double> linear_speed_after = {};
   std::optional<double> linear_acceleration_after = {};
   std::optional<double> linear_deceleration_after = {};
+
+  /// Whether the robot is another one from the end of the service on.
+  bool has_load() const {
+    return radius_after || linear_speed_after || linear_acceleration_after || linear_deceleration_after;
+  }
 };
 
 /// A differential-drive robot: an open disk that waits, rotates in place or translates straight ahead (or

@@ -29,14 +29,14 @@ namespace {
 class ProfileLegs {
  public:
   /// Divides a translation with a profile; if the profile does not fit, the speed is constant.
-  static std::vector<Leg> of(const Action& action, const Carried& carried) {
+  static std::vector<Leg> of(const Action& action, const Load& load) {
     const Leg whole{action.t_start, std::max(action.t_start, action.t_end), action.from.position,
                     action.to.position};
     const double length = (whole.to - whole.from).norm();
     if (!action.profile || action.type != Action::Type::translate || length <= 0.0) return {whole};
     const SpeedProfile& profile = *action.profile;
-    const double gains = (profile.cruise - profile.start) / carried.linear_acceleration;
-    const double loses = (profile.cruise - profile.end) / carried.linear_deceleration;
+    const double gains = (profile.cruise - profile.start) / load.linear_acceleration;
+    const double loses = (profile.cruise - profile.end) / load.linear_deceleration;
     const double first = 0.5 * (profile.start + profile.cruise) * gains;
     const double last = 0.5 * (profile.cruise + profile.end) * loses;
     const double cruises = whole.t_end - whole.t_begin - gains - loses;
@@ -74,8 +74,11 @@ class ProfileLegs {
 
 }  // namespace
 
-std::vector<Leg> execute(const Robot& robot, const RobotPlan* plan, const Tolerance& tolerance) {
-  const std::vector<Carried> carried = carried_by(robot, plan, tolerance);
+std::vector<Leg> execute(const Robot& robot, const RobotPlan* plan) {
+  return execute(robot, plan, CarriedLoads(robot, plan, Tolerance::of_all(kMostTolerance)));
+}
+
+std::vector<Leg> execute(const Robot& robot, const RobotPlan* plan, const CarriedLoads& loads) {
   std::vector<Leg> legs;
   double now = 0.0;
   Position here = robot.start.position;
@@ -89,8 +92,7 @@ std::vector<Leg> execute(const Robot& robot, const RobotPlan* plan, const Tolera
       legs.push_back({now, action.t_start, here, here});
       now = action.t_start;
     }
-    for (const Leg& planned :
-         ProfileLegs::of(action, carried_at(carried, action.t_start, tolerance.seconds))) {
+    for (const Leg& planned : ProfileLegs::of(action, loads.at(action.t_start))) {
       // What lies entirely in the past, or takes no time, is executed at once.
       if (planned.t_end > now) {
         legs.push_back(part_of(planned, std::max(now, planned.t_begin), planned.t_end));
@@ -147,20 +149,9 @@ class Services {
         metres_(std::max(tolerance.metres, kContactTolerance)),
         radians_(std::max(tolerance.radians, kContactTolerance)),
         seconds_(tolerance.seconds),
-        carried_{at_first(robot)} {}
+        steps_{{0.0, first_load(robot)}} {}
 
-  /// What the robot is before it has served a goal.
-  static Carried at_first(const Robot& robot) {
-    return {0.0, robot.radius, robot.linear_speed, robot.linear_acceleration, robot.linear_deceleration};
-  }
-
-  /// Whether the robot is another one after this goal.
-  static bool changes(const Goal& goal) {
-    return goal.radius_after || goal.linear_speed_after || goal.linear_acceleration_after ||
-           goal.linear_deceleration_after;
-  }
-
-  std::vector<Carried> run(const std::vector<Action>& actions, bool ends_at_goal) {
+  std::vector<CarriedLoads::Step> run(const std::vector<Action>& actions, bool ends_at_goal) {
     Pose pose = robot_.start;
     double now = 0.0;
     serve(pose, now);
@@ -174,7 +165,7 @@ class Services {
     if (ends_at_goal && served_ == last && is_at(pose, *robot_.goal)) {
       end_service(*robot_.goal, std::max(service_end(*robot_.goal), robot_.committed_until()));
     }
-    return std::move(carried_);
+    return std::move(steps_);
   }
 
  private:
@@ -198,18 +189,7 @@ class Services {
   }
 
   void end_service(const Goal& goal, double t) {
-    if (!changes(goal)) return;
-    const auto& acceleration = goal.linear_acceleration_after;
-    const auto& deceleration = goal.linear_deceleration_after;
-    Carried next = carried_.back();
-    next.t = t;
-    next.radius = goal.radius_after.value_or(next.radius);
-    next.linear_speed = goal.linear_speed_after.value_or(next.linear_speed);
-    next.linear_acceleration = acceleration.value_or(next.linear_acceleration);
-    if (acceleration || deceleration) {
-      next.linear_deceleration = deceleration ? *deceleration : next.linear_acceleration;
-    }
-    carried_.push_back(next);
+    if (goal.has_load()) steps_.push_back({t, load_after(steps_.back().load, goal)});
   }
 
   const Robot& robot_;
@@ -218,23 +198,22 @@ class Services {
   double seconds_;
   double free_from_ = 0.0;  // begin of the next service at the earliest
   std::size_t served_ = 0;  // number of goals
-  std::vector<Carried> carried_;
+  std::vector<CarriedLoads::Step> steps_;
 };
 
 }  // namespace
 
-std::vector<Carried> carried_by(const Robot& robot, const RobotPlan* plan, const Tolerance& tolerance) {
+CarriedLoads::CarriedLoads(const Robot& robot, const RobotPlan* plan, const Tolerance& tolerance)
+    : steps_{{0.0, first_load(robot)}}, seconds_(tolerance.seconds) {
   const bool does_nothing = robot.invalid || (plan == nullptr && robot.committed.empty());
-  const bool changes = robot.goal && (Services::changes(*robot.goal) ||
-                                      std::any_of(robot.via.begin(), robot.via.end(), Services::changes));
-  if (does_nothing || !changes) return {Services::at_first(robot)};
-  return Services(robot, tolerance).run(plan != nullptr ? plan->actions : robot.committed, plan != nullptr);
+  if (does_nothing || !changes_load(robot)) return;
+  steps_ = Services(robot, tolerance).run(plan != nullptr ? plan->actions : robot.committed, plan != nullptr);
 }
 
-const Carried& carried_at(const std::vector<Carried>& carried, double t, double tolerance) {
-  const auto next = std::upper_bound(carried.begin() + 1, carried.end(), t + tolerance,
-                                     [](double time, const Carried& one) { return time < one.t; });
-  return *std::prev(next);
+const Load& CarriedLoads::at(double t) const {
+  const auto next = std::upper_bound(steps_.begin() + 1, steps_.end(), t + seconds_,
+                                     [](double time, const Step& step) { return time < step.t; });
+  return std::prev(next)->load;
 }
 
 namespace {
@@ -255,15 +234,15 @@ std::vector<Leg> take_until(double t, std::vector<Leg>& legs) {
 
 }  // namespace
 
-std::vector<Body> bodies_of(const std::vector<Carried>& carried, std::vector<Leg> legs) {
+std::vector<Body> bodies_of(const CarriedLoads& loads, std::vector<Leg> legs) {
   std::vector<Body> bodies;
-  double radius = carried.front().radius;
-  for (const Carried& next : carried) {
-    if (next.radius != radius) {
-      std::vector<Leg> before = take_until(next.t, legs);
+  double radius = loads.steps().front().load.radius;
+  for (const auto& [t, load] : loads.steps()) {
+    if (load.radius != radius) {
+      std::vector<Leg> before = take_until(t, legs);
       if (!before.empty()) bodies.push_back({radius, std::move(before)});
     }
-    radius = next.radius;
+    radius = load.radius;
   }
   bodies.push_back({radius, std::move(legs)});
   return bodies;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/geometry/moving_obstacle.h"
+#include "core/model/loads.h"
 #include "core/model/plan.h"
 #include "core/model/robot.h"
 #include "core/verify/check_rules.h"
@@ -33,24 +34,29 @@ Position position_at(const Leg& leg, double t);
 /// Returns the part of a leg from `begin` to `end`, which are within it; both may be the same.
 Leg part_of(const Leg& leg, double begin, double end);
 
-/// What a robot is from a time on, until it has served the next goal that changes it: its radius
-/// (`radius_after`) and how fast it drives (`linear_speed_after` and its companions).
-struct Carried {
-  double t = 0.0;                    // seconds
-  double radius = 0.0;               // metres
-  double linear_speed = 0.0;         // metres per second
-  double linear_acceleration = 0.0;  // metres per second squared
-  double linear_deceleration = 0.0;
+/// The loads of a robot that executes a plan (null: its commitment). Each goal is served as early as
+/// possible, by an uninterrupted rest in its pose after the goals before it. The last one is served by the
+/// rest at the end of the plan, after the commitment; a robot without a plan does not serve it. One that has
+/// neither a plan nor a commitment serves none.
+class CarriedLoads {
+ public:
+  /// A load that is carried from a time on, seconds.
+  struct Step {
+    double t = 0.0;
+    Load load;
+  };
+
+  CarriedLoads(const Robot& robot, const RobotPlan* plan, const Tolerance& tolerance);
+
+  /// Ascending, the first one from t = 0 on.
+  const std::vector<Step>& steps() const { return steps_; }
+  /// During an action that begins at `t`, within the tolerance.
+  const Load& at(double t) const;
+
+ private:
+  std::vector<Step> steps_;
+  double seconds_;  // tolerance
 };
-
-/// Returns what a robot is that executes a plan (null: its commitment), from t = 0 on, ascending; at least
-/// one. Each goal is served as early as possible, by an uninterrupted rest in its pose after the goals before
-/// it. The last one is served by the rest at the end of the plan, after the commitment; a robot without a
-/// plan does not serve it. One that has neither a plan nor a commitment serves none.
-std::vector<Carried> carried_by(const Robot& robot, const RobotPlan* plan, const Tolerance& tolerance);
-
-/// Returns that of them during an action that begins at `t`; times may differ by `tolerance` seconds.
-const Carried& carried_at(const std::vector<Carried>& carried, double t, double tolerance);
 
 /// Returns the legs of a robot from t = 0 to infinity, in order, each beginning when the previous one ends.
 /// Without a plan (null) the robot executes its committed actions, unless it is invalid. Without actions it
@@ -58,7 +64,9 @@ const Carried& carried_at(const std::vector<Carried>& carried, double t, double 
 /// in a gap between actions the robot stands; of an action that begins before the previous one has ended (or
 /// before 0), the overlapping part is omitted; an action that ends before it begins takes no time. Every
 /// number of the plan (and of the committed actions) is finite.
-std::vector<Leg> execute(const Robot& robot, const RobotPlan* plan, const Tolerance& tolerance = {});
+std::vector<Leg> execute(const Robot& robot, const RobotPlan* plan, const CarriedLoads& loads);
+/// With times that may be rounded by up to kMostTolerance.
+std::vector<Leg> execute(const Robot& robot, const RobotPlan* plan);
 
 /// Returns the legs of an obstacle from when it appears until it vanishes, or to infinity. An obstacle that
 /// appears for an instant only has a leg that takes no time.
@@ -87,8 +95,8 @@ struct Body {
 };
 
 /// Returns the disks of a robot, each from the end of the one before, the first from t = 0, the last to
-/// infinity. `legs` are the result of execute(), and `carried` that of carried_by(), for the same plan.
-std::vector<Body> bodies_of(const std::vector<Carried>& carried, std::vector<Leg> legs);
+/// infinity. `legs` are the result of execute() with these loads.
+std::vector<Body> bodies_of(const CarriedLoads& loads, std::vector<Leg> legs);
 
 /// Robots that execute their plans. All lists are in the same order; a position in them is not the index of
 /// the robot. A robot whose radius changes has several positions, one after the other, for one time each (see

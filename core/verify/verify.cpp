@@ -106,12 +106,12 @@ class FleetCheck {
   void check_alone(std::size_t index, const Robot& robot, const RobotPlan* plan, const ObstacleField& field,
                    const ZonesOfRobot& zones) {
     const Tolerance& tolerance = rules_.tolerances[index];
-    if (plan != nullptr) check_plan(robot, *plan, tolerance);
+    const CarriedLoads loads(robot, plan, tolerance);
+    if (plan != nullptr) check_plan(robot, *plan, loads, tolerance);
     const Departure departure = departure_of(robot, plan);
     std::vector<Leg> legs;
     std::vector<double> radii;  // by leg
-    const std::vector<Carried> carried = carried_by(robot, plan, tolerance);
-    for (Body& body : bodies_of(carried, execute(robot, plan, tolerance))) {
+    for (Body& body : bodies_of(loads, execute(robot, plan, loads))) {
       legs.insert(legs.end(), body.legs.begin(), body.legs.end());
       radii.resize(legs.size(), body.radius);
       add_to_fleet(robot, plan, std::move(body), departure, index);
@@ -126,7 +126,7 @@ class FleetCheck {
     if (zones.empty()) return;
     violations_.add(zones.check_blocked(kept, legs, departure, tolerance.metres, stop_));
     violations_.add(
-        zones.check_driving(plan != nullptr ? plan->actions : robot.committed, carried, tolerance, stop_));
+        zones.check_driving(plan != nullptr ? plan->actions : robot.committed, loads, tolerance, stop_));
   }
 
   void add_to_fleet(const Robot& robot, const RobotPlan* plan, Body body, const Departure& departure,
@@ -141,12 +141,13 @@ class FleetCheck {
     fleet_.stays.push_back(plan == nullptr || !robot.goal);
   }
 
-  void check_plan(const Robot& robot, const RobotPlan& plan, const Tolerance& tolerance) {
+  void check_plan(const Robot& robot, const RobotPlan& plan, const CarriedLoads& loads,
+                  const Tolerance& tolerance) {
     const auto changed = check_commitments(robot, plan, tolerance, rules_.exact_commitments);
     if (changed) violations_.add(*changed);
     // Committed actions that repeat those of the request exactly are not judged.
     const std::size_t given = rules_.exact_commitments && !changed ? robot.committed.size() : 0;
-    violations_.add(check_motion(robot, plan, given, tolerance, stop_));
+    violations_.add(check_motion(robot, plan, given, loads, tolerance, stop_));
     const GoalsLeft goals_left =
         may_leave_goals(robot, plan, tolerance) ? GoalsLeft::allowed : GoalsLeft::none;
     for (Violation& wrong : check_endpoints(robot, plan, tolerance, goals_left))

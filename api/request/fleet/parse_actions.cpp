@@ -71,27 +71,28 @@ void leave_out_unfit_profiles(std::vector<core::Action>& actions) {
   }
 }
 
-LoadOnTheWay::LoadOnTheWay(const core::Robot& robot, const std::vector<core::OpenGoal>& open)
-    : robot_(robot), open_(open), loads_(core::loads_of(robot)), served_(settled_at_start()) {}
+OpenLoadOnTheWay::OpenLoadOnTheWay(const core::Robot& robot, const std::vector<core::OpenGoal>& open)
+    : robot_(robot), open_(open), on_the_way_(settled_at_start()) {}
 
 /// A goal that is not served at the start is settled again.
-const core::Robot& LoadOnTheWay::settled_at_start() {
+const core::Robot& OpenLoadOnTheWay::settled_at_start() {
   // Bounded: the poses of open goals, each once.
   for (std::size_t k = 0; k < open_.size(); ++k) settle(open_[k].goal, robot_.start);
   return robot_;
 }
 
-void LoadOnTheWay::execute(const core::Action& action) {
+void OpenLoadOnTheWay::execute(const core::Action& action) {
   // Bounded: the goals in one pose, each once.
-  for (std::size_t before = loads_.size(); before != served_.count();) {
-    before = served_.count();
+  for (bool goes_on = true; goes_on;) {
+    const std::size_t before = on_the_way_.served();
     settle(before, action.to);
-    served_.execute(action);
+    on_the_way_.execute(action);
+    goes_on = on_the_way_.served() != before;
   }
 }
 
 /// Chooses the pose of the goal that the robot is in, if the goal is open.
-void LoadOnTheWay::settle(std::size_t goal, const core::Pose& pose) {
+void OpenLoadOnTheWay::settle(std::size_t goal, const core::Pose& pose) {
   const auto open = std::lower_bound(open_.begin(), open_.end(), goal,
                                      [](const core::OpenGoal& one, std::size_t k) { return one.goal < k; });
   if (open == open_.end() || open->goal != goal) return;

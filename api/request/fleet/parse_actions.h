@@ -11,7 +11,6 @@
 #include "api/request/world_frame.h"
 #include "core/geometry/tolerance.h"
 #include "core/model/action.h"
-#include "core/model/itinerary.h"
 #include "core/model/loads.h"
 #include "core/model/open_goal.h"
 #include "core/model/robot.h"
@@ -56,16 +55,14 @@ struct ParsedActions {
 std::optional<ParsedActions> parse_actions(const JsonReader& list, const ActionsOwner& owner,
                                            const WorldFrame& frame);
 
-/// The load of a robot that executes actions one after the other. A goal that is open is served in the pose
-/// in which the robot rests first.
-class LoadOnTheWay {
+/// See core::LoadOnTheWay. A goal that is open is served in the pose in which the robot rests first.
+class OpenLoadOnTheWay {
  public:
-  LoadOnTheWay(const core::Robot& robot, const std::vector<core::OpenGoal>& open);
-  LoadOnTheWay(const LoadOnTheWay&) = delete;
-  LoadOnTheWay& operator=(const LoadOnTheWay&) = delete;
+  OpenLoadOnTheWay(const core::Robot& robot, const std::vector<core::OpenGoal>& open);
+  OpenLoadOnTheWay(const OpenLoadOnTheWay&) = delete;
+  OpenLoadOnTheWay& operator=(const OpenLoadOnTheWay&) = delete;
 
-  /// That with which it executes the next action.
-  const core::Load& load() const { return loads_[served_.count()]; }
+  const core::Load& load() const { return on_the_way_.load(); }
   void execute(const core::Action& action);
 
  private:
@@ -74,8 +71,7 @@ class LoadOnTheWay {
 
   core::Robot robot_;
   std::vector<core::OpenGoal> open_;
-  std::vector<core::Load> loads_;  // by the number of goals served
-  core::GoalsOnTheWay served_;
+  core::LoadOnTheWay on_the_way_;
 };
 
 /// Joins the actions of a robot one after the other, in the map frame, and reports those that do not fit.
@@ -115,9 +111,9 @@ class ActionChain {
   std::size_t measured_;
   std::optional<double> now_ = 0.0;  // seconds; none: unknown, as is the pose
   std::optional<core::Pose> pose_;
-  std::optional<double> speed_;        // at the end of the action before; none: unknown
-  std::size_t count_ = 0;              // number of the actions before
-  std::optional<LoadOnTheWay> loads_;  // of a robot that changes its load
+  std::optional<double> speed_;            // at the end of the action before; none: unknown
+  std::size_t count_ = 0;                  // number of the actions before
+  std::optional<OpenLoadOnTheWay> loads_;  // of a robot that changes its load
 };
 
 }  // namespace fleetplan::api

@@ -74,14 +74,12 @@ std::vector<core::Alternative> parse_any_of(const JsonReader& goal, const JsonRe
   return poses;
 }
 
-/// Reads what changes with the service. Returns whether anything does.
-bool parse_load(const JsonReader& json, core::Goal& goal) {
+/// Reads what changes with the service.
+void parse_load(const JsonReader& json, core::Goal& goal) {
   goal.radius_after = json.find("radius_after").number(kLength);
   goal.linear_speed_after = json.find("linear_speed_after").number(kLinearSpeed);
   goal.linear_acceleration_after = json.find("linear_acceleration_after").number(kLinearAcceleration);
   goal.linear_deceleration_after = json.find("linear_deceleration_after").number(kLinearAcceleration);
-  return goal.radius_after || goal.linear_speed_after || goal.linear_acceleration_after ||
-         goal.linear_deceleration_after;
 }
 
 /// Adds the goal if it is valid.
@@ -105,12 +103,12 @@ void add_goal(const JsonReader& member, const WorldFrame& frame, Quota& quota, P
   const JsonReader due = json.find("due");
   goal.due = due.number(kDue);
   if (goal.due) check_due(due, *goal.due, goal.not_before);
-  const bool has_load = parse_load(json, goal);
+  parse_load(json, goal);
   GoalTexts texts{parse_metadata(json), parse_goal_actions(json),
                   poses.empty() ? std::string() : text_of_any_of(any_of)};
   const bool has_texts = !texts.empty();
   if (!pose || member.fault_count() != before) return;
-  if (service || not_before || goal.due || has_load || has_texts) read.lists_visits = true;
+  if (service || not_before || goal.due || goal.has_load() || has_texts) read.lists_visits = true;
   if (has_texts) {
     read.texts.resize(read.goals.size());
     read.texts.push_back(std::move(texts));

@@ -14,7 +14,7 @@ from fleetplan.types import Action, ActionPlace, ActionProgress, Goal, PlanReque
 Place: TypeAlias = float
 
 _STEERED = 0.05  # radians: a turn for which a robot under way need not stop, as plans from measured poses have them
-_SAME_TIME = 1e-6  # seconds: rounding of times
+_ROUNDED_TIME = 1e-6  # seconds: what times of a plan are off in text, at most
 _TURNED = 0.25  # radians: by less, turns of the same way differ, which begins where the robot is measured
 _ON_PLACE = 1e-9  # of whole progress, metres, radians or seconds: rounding
 
@@ -70,7 +70,7 @@ def limits_by_action(request: PlanRequest, robot: Robot, actions: Sequence[Actio
         if visit["t_arrive"] is not None and visit["t_leave"] is not None]
     found: list[Limits] = []
     for action in actions:
-        while left and left[0][0] <= action["t_start"] + _SAME_TIME:
+        while left and left[0][0] <= action["t_start"] + _ROUNDED_TIME:
             _, goal = left.pop(0)
             limits = _after(limits, goals[goal]) if goal < len(goals) else limits
         found.append(limits)

@@ -253,8 +253,9 @@ class Executor:
             plan = plans.get(robot["id"])
             actions = robot.get("committed", []) if plan is None else plan["actions"]
             has_goals = bool(goals_of(robot))
+            visits = None if plan is None else plan.get("visits")
             self._robots[robot["id"]] = _Progress(
-                _course(request, robot, actions, plan.get("visits") if plan is not None else None), has_goals, plan is not None and "ends_at" not in plan,
+                _course(request, robot, actions, visits), has_goals, plan is not None and "ends_at" not in plan,
                 plan is not None and not has_goals and robot.get("idle", "stay") != "stay",
                 _execution_margin(request, robot), counted=begin, stays=robot["id"] in invalid)
         for dependency in dependencies:

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "core/geometry/angle.h"
-#include "core/verify/execution.h"
 #include "core/verify/rules/plan_rules.h"
 
 namespace fleetplan::core {
@@ -58,8 +57,9 @@ bool goes_on_straight(const Action& before, const Action& action, const Toleranc
 /// Checks the actions of one plan in order.
 class MotionCheck {
  public:
-  MotionCheck(const Robot& robot, const RobotPlan& plan, const Tolerance& tolerance)
-      : robot_(robot), plan_(plan), tolerance_(tolerance), carried_(carried_by(robot, &plan, tolerance)) {}
+  MotionCheck(const Robot& robot, const RobotPlan& plan, const CarriedLoads& loads,
+              const Tolerance& tolerance)
+      : robot_(robot), plan_(plan), loads_(loads), tolerance_(tolerance) {}
 
   ViolationList run(std::size_t given, const StopCondition& stop) {
     for (std::size_t k = given; k < plan_.actions.size(); ++k) {
@@ -75,10 +75,6 @@ class MotionCheck {
   }
 
  private:
-  const Carried& carried_during(const Action& action) const {
-    return carried_at(carried_, action.t_start, tolerance_.seconds);
-  }
-
   bool differ(double a, double b) const { return std::abs(a - b) > tolerance_.seconds; }
 
   void report(Kind kind, double t, double distance, double required, const std::string& detail) {
@@ -139,7 +135,7 @@ class MotionCheck {
   void check_speed(std::size_t k) {
     const Action& action = plan_.actions[k];
     if (action.type == Action::Type::translate) {
-      check_duration(k, distance_between(action.from, action.to), carried_during(action).linear_speed,
+      check_duration(k, distance_between(action.from, action.to), loads_.at(action.t_start).linear_speed,
                      tolerance_.metres, "m/s");
       check_direction(k);
     } else if (action.type == Action::Type::rotate) {
@@ -177,9 +173,9 @@ class MotionCheck {
     const double amount =
         turns ? turn_between(action.from, action.to) : distance_between(action.from, action.to);
     const double tolerance = turns ? tolerance_.radians : tolerance_.metres;
-    const Carried& carried = carried_during(action);
-    const double gain = turns ? robot_.angular_acceleration : carried.linear_acceleration;
-    const double loss = turns ? robot_.angular_acceleration : carried.linear_deceleration;
+    const Load& load = loads_.at(action.t_start);
+    const double gain = turns ? robot_.angular_acceleration : load.linear_acceleration;
+    const double loss = turns ? robot_.angular_acceleration : load.linear_deceleration;
     const bool is_limited = std::isfinite(gain) || std::isfinite(loss);
     if (!action.profile) {
       if (is_limited && amount > tolerance) {
@@ -189,7 +185,7 @@ class MotionCheck {
       return;
     }
     const SpeedProfile& profile = *action.profile;
-    const double top_speed = turns ? robot_.angular_speed : carried.linear_speed;
+    const double top_speed = turns ? robot_.angular_speed : load.linear_speed;
     const auto fault = [&](double value, double required, const std::string& what) {
       report(Kind::profile, action.t_start, value, required, action_name(k) + " has a profile " + what);
     };
@@ -285,8 +281,8 @@ class MotionCheck {
 
   const Robot& robot_;
   const RobotPlan& plan_;
+  const CarriedLoads& loads_;
   Tolerance tolerance_;
-  std::vector<Carried> carried_;
   ViolationList violations_;
 };
 
@@ -324,8 +320,8 @@ std::optional<Violation> find_unusable_number(std::size_t index, const Robot& ro
 }
 
 ViolationList check_motion(const Robot& robot, const RobotPlan& plan, std::size_t given,
-                           const Tolerance& tolerance, const StopCondition& stop) {
-  return MotionCheck(robot, plan, tolerance).run(given, stop);
+                           const CarriedLoads& loads, const Tolerance& tolerance, const StopCondition& stop) {
+  return MotionCheck(robot, plan, loads, tolerance).run(given, stop);
 }
 
 ViolationList check_waits(const Robot& robot, const RobotPlan& plan, double wait, const Tolerance& tolerance,

@@ -237,9 +237,8 @@ ViolationList ZonesOfRobot::check_blocked(const std::vector<double>& radii, cons
   return violations;
 }
 
-ViolationList ZonesOfRobot::check_driving(const std::vector<Action>& actions,
-                                          const std::vector<Carried>& carried, const Tolerance& tolerance,
-                                          const StopCondition& stop) const {
+ViolationList ZonesOfRobot::check_driving(const std::vector<Action>& actions, const CarriedLoads& loads,
+                                          const Tolerance& tolerance, const StopCondition& stop) const {
   ViolationList violations;
   for (std::size_t k = 0; k < actions.size(); ++k) {
     for (const ZoneBox& in : zones_) {
@@ -249,8 +248,8 @@ ViolationList ZonesOfRobot::check_driving(const std::vector<Action>& actions,
       if (nearest_to_rectangle(action.from.position, action.to.position, in.box).distance > 0.0) continue;
       std::optional<Violation> found;
       if (action.type == Action::Type::translate) {
-        const Carried& robot = carried_at(carried, action.t_start, tolerance.seconds);
-        found = check_translation(in, action, k, robot, tolerance, stop);
+        const Load& load = loads.at(action.t_start);
+        found = check_translation(in, action, k, load, tolerance, stop);
       } else if (action.type == Action::Type::rotate) {
         found = check_rotation(in, action, k, tolerance);
       }
@@ -263,7 +262,7 @@ ViolationList ZonesOfRobot::check_driving(const std::vector<Action>& actions,
 /// Reports a translation that breaks the rule of a zone. The time that is missing is measured over the part
 /// inside the zone, as that of whole actions is.
 std::optional<Violation> ZonesOfRobot::check_translation(const ZoneBox& in, const Action& action,
-                                                         std::size_t number, const Carried& robot,
+                                                         std::size_t number, const Load& load,
                                                          const Tolerance& tolerance,
                                                          const StopCondition& stop) const {
   const Position way = action.to.position - action.from.position;
@@ -283,15 +282,15 @@ std::optional<Violation> ZonesOfRobot::check_translation(const ZoneBox& in, cons
                         in.zone->id + "\", which allows " + radians(in.zone->half_angle));
     }
     const double share = stretch.last - stretch.first;
-    const double limit = in.zone->linear_speed_for(robot.linear_speed);
+    const double limit = in.zone->linear_speed_for(load.linear_speed);
     if (action.profile) {
       // Where it is within the tolerance of the border, it need not be at the limit yet.
       const SpeedProfile& profile = *action.profile;
       const double gained = profile.start * profile.start +
-                            2.0 * robot.linear_acceleration * (stretch.last * length - tolerance.metres);
+                            2.0 * load.linear_acceleration * (stretch.last * length - tolerance.metres);
       const double to_lose =
           profile.end * profile.end +
-          2.0 * robot.linear_deceleration * ((1.0 - stretch.first) * length - tolerance.metres);
+          2.0 * load.linear_deceleration * ((1.0 - stretch.first) * length - tolerance.metres);
       const double square = std::min({profile.cruise * profile.cruise, gained, to_lose});
       const double speed = std::sqrt(std::max(0.0, square));
       if (speed <= limit + tolerance.metres) continue;

@@ -67,7 +67,7 @@ class ZonesOfRobot {
 
   /// Reports the actions that are faster than a speed zone allows, and those against a one-way zone. Ends
   /// early when `stop` is met.
-  ViolationList check_driving(const std::vector<Action>& actions, const std::vector<Carried>& carried,
+  ViolationList check_driving(const std::vector<Action>& actions, const CarriedLoads& loads,
                               const Tolerance& tolerance, const StopCondition& stop) const;
 
  private:
@@ -82,7 +82,7 @@ class ZonesOfRobot {
                                   const Departure& departure, double tolerance,
                                   const StopCondition& stop) const;
   std::optional<Violation> check_translation(const ZoneBox& in, const Action& action, std::size_t number,
-                                             const Carried& robot, const Tolerance& tolerance,
+                                             const Load& load, const Tolerance& tolerance,
                                              const StopCondition& stop) const;
   std::optional<Violation> check_rotation(const ZoneBox& in, const Action& action, std::size_t number,
                                           const Tolerance& tolerance) const;

@@ -11,6 +11,7 @@
 #include "core/model/robot.h"
 #include "core/runtime/stop_condition.h"
 #include "core/verify/check_rules.h"
+#include "core/verify/execution.h"
 #include "core/verify/violations.h"
 
 namespace fleetplan::core {
@@ -23,7 +24,7 @@ std::optional<Violation> find_unusable_number(std::size_t index, const Robot& ro
 /// (`discontinuity`), and that the robot keeps to its speeds and moves along its heading (`speed`). All
 /// numbers are usable. The first `given` actions are not judged. Ends early when `stop` is met.
 ViolationList check_motion(const Robot& robot, const RobotPlan& plan, std::size_t given,
-                           const Tolerance& tolerance, const StopCondition& stop);
+                           const CarriedLoads& loads, const Tolerance& tolerance, const StopCondition& stop);
 
 /// Reports translations (`speed`) before which the robot, already turned, stands still for less than `wait`
 /// seconds. Translations that follow each other in one straight line are one; committed ones are not judged.
