@@ -12,6 +12,7 @@ import {
 } from "../model/edit_zones.js";
 import { zonesOf } from "../model/listed.js";
 import { ARROWS, snapPoint } from "../model/placement.js";
+import { isInPolygon } from "../model/polygon.js";
 import { drawPath, ring } from "../scene/marks.js";
 import { reachOf } from "./handles.js";
 
@@ -194,17 +195,7 @@ export class ZoneTool {
 
   /** The last zone that a point is in, or null. */
   #zoneAt(world) {
-    const found = zonesOf(this.#session.request).findLastIndex((zone) => isInside(cornersOf(zone), world));
+    const found = zonesOf(this.#session.request).findLastIndex((zone) => isInPolygon(world, cornersOf(zone)));
     return found < 0 ? null : found;
   }
-}
-
-/** Whether a point is in a polygon. */
-function isInside(corners, { x, y }) {
-  let inside = false;
-  corners.forEach((a, at) => {
-    const b = corners[(at + 1) % corners.length];
-    if (a.y > y !== b.y > y && x < a.x + ((y - a.y) / (b.y - a.y)) * (b.x - a.x)) inside = !inside;
-  });
-  return inside;
 }

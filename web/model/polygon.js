@@ -1,17 +1,21 @@
-// Distances from polygons. Pure. Metres.
+// Points and polygons. Pure. Metres.
+
+/** Whether a point is in a polygon of these corners. */
+export function isInPolygon({ x, y }, corners) {
+  let isInside = false;
+  corners.forEach((to, at) => {
+    const from = corners.at(at - 1);
+    if (from.y > y === to.y > y) return;
+    if (x < from.x + ((y - from.y) / (to.y - from.y)) * (to.x - from.x)) isInside = !isInside;
+  });
+  return isInside;
+}
 
 /** The distance of a point from a polygon of these corners: 0 inside. */
 export function distanceToPolygon(point, corners) {
-  let isInside = false;
-  let nearest = Infinity;
-  corners.forEach((to, at) => {
-    const from = corners.at(at - 1);
-    nearest = Math.min(nearest, distanceToSide(point, from, to));
-    if (from.y > point.y === to.y > point.y) return;
-    const crossing = from.x + ((point.y - from.y) / (to.y - from.y)) * (to.x - from.x);
-    if (crossing > point.x) isInside = !isInside;
-  });
-  return isInside ? 0 : nearest;
+  if (isInPolygon(point, corners)) return 0;
+  const nearer = (nearest, to, at) => Math.min(nearest, distanceToSide(point, corners.at(at - 1), to));
+  return corners.reduce(nearer, Infinity);
 }
 
 function distanceToSide(point, from, to) {

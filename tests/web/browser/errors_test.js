@@ -6,7 +6,7 @@ import { test } from "node:test";
 
 import { choose, pause, pressPlan } from "../support/browser.js";
 import { drop } from "../support/map_files.js";
-import { hook, pagesFor, paste, REFUSED, twoFrames } from "../support/on_page.js";
+import { hook, NO_ANSWER, pagesFor, paste, REFUSED, twoFrames } from "../support/on_page.js";
 
 const onPage = pagesFor();
 
@@ -21,20 +21,7 @@ async function openTab(page, name) {
   await page.keyboard.press("Enter");
 }
 
-const FAULTS = {
-  "goes away": [(route) => route.abort(), /No response from the service/],
-  "answers 503": [
-    (route) =>
-      route.fulfill({
-        status: 503,
-        contentType: "application/problem+json",
-        body: JSON.stringify({ title: "Service Unavailable", detail: "The queue is full.", status: 503 }),
-      }),
-    /The queue is full\./,
-  ],
-};
-
-for (const [what, [answer, words]] of Object.entries(FAULTS)) {
+for (const [what, [answer, words]] of Object.entries(NO_ANSWER)) {
   test(`a service that ${what} in the middle is told wherever it is asked, and asked again by the same button`, async () => {
     await onPage(
       async (page) => {

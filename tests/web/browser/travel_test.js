@@ -5,7 +5,7 @@ import { test } from "node:test";
 
 import { assertAccessible, COLOUR_RULES } from "../support/axe.js";
 import { choose } from "../support/browser.js";
-import { coloursAt, hook, pagesFor, paste, themeColour } from "../support/on_page.js";
+import { coloursAt, hook, NO_ANSWER, pagesFor, paste, themeColour } from "../support/on_page.js";
 
 const onPage = pagesFor();
 const BACK = 0.03; // how much, relatively, a way back may take longer or shorter than that there, as found
@@ -201,20 +201,7 @@ test("an edit of the map ends the request under way; other times are asked for",
   );
 });
 
-const FAULTS = {
-  "goes away": [(route) => route.abort(), /No response from the service/],
-  "answers 503": [
-    (route) =>
-      route.fulfill({
-        status: 503,
-        contentType: "application/problem+json",
-        body: JSON.stringify({ title: "Service Unavailable", detail: "The queue is full.", status: 503 }),
-      }),
-    /The queue is full\./,
-  ],
-};
-
-for (const [what, [answer, words]] of Object.entries(FAULTS)) {
+for (const [what, [answer, words]] of Object.entries(NO_ANSWER)) {
   test(`a service that ${what} is told, and asked again by a button`, async () => {
     await onPage(
       async (page) => {

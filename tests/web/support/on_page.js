@@ -26,6 +26,20 @@ export function pagesFor(flags = []) {
 /** Chromium's message when the service rejects a request. */
 export const REFUSED = /status of 422/;
 
+/** How a service fails to answer: what it does, by its name, and the words that the page has for it. */
+export const NO_ANSWER = {
+  "goes away": [(route) => route.abort(), /No response from the service/],
+  "answers 503": [
+    (route) =>
+      route.fulfill({
+        status: 503,
+        contentType: "application/problem+json",
+        body: JSON.stringify({ title: "Service Unavailable", detail: "The queue is full.", status: 503 }),
+      }),
+    /The queue is full\./,
+  ],
+};
+
 /** Pastes a request, an object or a text, and waits until it is open. */
 export async function paste(page, request) {
   await pasteText(page, typeof request === "string" ? request : JSON.stringify(request));
