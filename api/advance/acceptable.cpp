@@ -1,9 +1,8 @@
-#include "api/advance/acceptable.h"
-
 #include <algorithm>
 #include <memory>
 #include <variant>
 
+#include "api/advance/advance_request.h"
 #include "api/request/fleet/parse_actions.h"
 #include "core/geometry/angle.h"
 #include "core/geometry/tolerance.h"

@@ -3,7 +3,7 @@
 // The fleet at a later moment of its plan. All poses are in the client's world, so that no number changes
 // that the moment does not change: what a robot executes, seen from that moment (timeline.cpp), what
 // is released of it already (released.cpp), how robots brake that need time to stop (inertia.cpp), the robots
-// of the next request (advance.cpp), and commitments that end where robots may stay (clear_commitments.cpp).
+// of the next request (advance.cpp). For commitments that end where robots may stay see committed_motion.h.
 
 #include <cstddef>
 #include <optional>
@@ -211,15 +211,5 @@ void hold(Remainder& rest, double from, double until);
 
 /// The pose in an action at a time within it.
 core::Pose pose_at(const core::Action& action, double t);
-
-/// Ends committed actions early, so that every robot may stay for ever where its commitment ends: none meets
-/// another one, nor passes where another one has ended. Whatever becomes of the plans behind the commitments,
-/// nobody then drives into a robot that stands. Robots are only stopped while they drive; a wait stays
-/// committed. `margins`: metres, by robot, that they keep around their disks; robots that are nearer to each
-/// other at the moment keep half of what they have, or a quarter of the margins if they have that. `braking`:
-/// by robot, see braking_of; none of these commitments ends before, unless it collides with another
-/// commitment. Ends early when the stop is met.
-void clear_commitments(std::vector<core::Robot>& robots, const std::vector<double>& margins,
-                       const std::vector<std::vector<core::Action>>& braking, core::Work& stop);
 
 }  // namespace fleetplan::api

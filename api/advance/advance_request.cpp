@@ -8,15 +8,13 @@
 #include <utility>
 #include <vector>
 
-#include "api/advance/acceptable.h"
 #include "api/json/json_writer.h"
 #include "api/request/fleet/parse_actions.h"
-#include "api/request/fleet/parse_obstacles.h"
 #include "api/request/fleet/parse_plans.h"
 #include "api/request/fleet/parse_robots.h"
+#include "api/request/limits.h"
 #include "api/request/parse_body.h"
 #include "api/request/parse_request.h"
-#include "api/request/ranges.h"
 #include "api/response/write_response.h"
 #include "core/geometry/angle.h"
 #include "core/model/drive_zones.h"

@@ -1,18 +1,23 @@
 #pragma once
 
-// The request of POST /v1/advance and its answer, which is the request of a later moment.
+// The request of POST /v1/advance and its answer, the request of a later moment. POST /v1/plan accepts it
+// wherever robots were measured (acceptable.cpp).
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "api/advance/advance.h"
+#include "api/advance/committed_motion.h"
 #include "api/json/json_reader.h"
 #include "api/request/limits.h"
 #include "api/request/parse_body.h"
+#include "core/map/static_map.h"
+#include "core/model/action.h"
+#include "core/model/robot.h"
+#include "core/runtime/work.h"
 
 namespace fleetplan::api {
-
-struct Circumstances;
 
 /// A readable body of POST /v1/advance, in the client's world.
 struct AdvanceRequest {
@@ -29,11 +34,26 @@ struct AdvanceRequest {
   JsonReader request;  // the member of the body
 };
 
-/// Reads the root of the document. Nothing if it has faults, or if its stop is met.
+/// Reads the root of the document. Returns none if it has faults, or if its stop is met.
 std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, const Limits& limits,
                                                     core::Work& stop);
 
-/// The request of the moment: that of the body with the starts, goals, committed and previous actions of
+/// What is wrong with where robots are, and cannot be mended.
+struct Circumstances {
+  std::optional<double> start_overlap = {};  // metres that starts may overlap; none: as the request allows
+  bool some_in_walls = false;                // robots whose centres are, which have to be reported as invalid
+  std::vector<Collision> unavoidable = {};   // the first ones
+};
+
+/// Ends committed actions of robots that were measured, or have reported where they are, before they meet
+/// walls or zones, or break the rules of zones, as /v1/plan judges it; then those of others that would drive
+/// into them, see clear_commitments. `request`: that the robots follow from, whose map is taken. `braking`:
+/// by robot, see braking_of. `maps`: those of earlier requests; may be null. Ends early when the stop is met.
+Circumstances make_acceptable(AdvanceRequest& request, std::vector<core::Robot>& robots,
+                              const std::vector<std::vector<core::Action>>& braking, core::MapCache* maps,
+                              core::Work& stop);
+
+/// Returns the request of the moment: that of the body with the starts, goals, committed and previous actions of
 /// these robots, what is left of its obstacles, and the options that it needs where they are; everything else
 /// is copied. Then `progress`, and `unavoidable` if robots overlap or cannot stop in time. The text ends
 /// anywhere once the work is met.

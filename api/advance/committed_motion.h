@@ -1,7 +1,7 @@
 #pragma once
 
-// What robots do that execute nothing but their commitments, in pieces of straight motion and rest, and which
-// of them collide then.
+// The motion of robots that execute nothing but their commitments, in pieces of straight motion and rest;
+// which of them collide then; and commitments that end early, so that none do.
 
 #include <cstddef>
 #include <optional>
@@ -77,5 +77,15 @@ struct Collision {
 std::vector<Collision> unavoidable_collisions(const std::vector<core::Robot>& robots,
                                               const std::vector<std::vector<core::Action>>& braking,
                                               core::Work& stop);
+
+/// Ends committed actions early, so that every robot may stay for ever where its commitment ends: none meets
+/// another one, nor passes where another one has ended. Whatever becomes of the plans behind the commitments,
+/// nobody then drives into a robot that stands. Robots are only stopped while they drive; a wait stays
+/// committed. `margins`: metres, by robot, that they keep around their disks; robots that are nearer to each
+/// other at the moment keep half of what they have, or a quarter of the margins if they have that. `braking`:
+/// by robot, see braking_of; none of these commitments ends before, unless it collides with another
+/// commitment. Ends early when the stop is met.
+void clear_commitments(std::vector<core::Robot>& robots, const std::vector<double>& margins,
+                       const std::vector<std::vector<core::Action>>& braking, core::Work& stop);
 
 }  // namespace fleetplan::api

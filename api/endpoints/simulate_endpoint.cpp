@@ -11,7 +11,7 @@
 #include "api/json/error.h"
 #include "api/json/faults.h"
 #include "api/request/parse_request.h"
-#include "api/response/write_simulation.h"
+#include "api/response/write_response.h"
 #include "core/runtime/memory_account.h"
 #include "core/runtime/stop_condition.h"
 

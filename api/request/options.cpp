@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "api/json/faults.h"
-#include "api/request/ranges.h"
+#include "api/request/limits.h"
 
 namespace fleetplan::api {
 

@@ -1,6 +1,7 @@
 #pragma once
 
-// The parts that requests share: reading the body, and the map, the robots and the options in it.
+// The parts that requests share: reading the body, and the map, the robots, the obstacles and the options in
+// it.
 
 #include <functional>
 #include <optional>
@@ -12,14 +13,22 @@
 
 #include "api/json/error.h"
 #include "api/json/json_reader.h"
-#include "api/request/fleet/parse_obstacles.h"
 #include "api/request/fleet/parse_robots.h"
 #include "api/request/limits.h"
 #include "api/request/map/parse_map.h"
 #include "api/request/options.h"
+#include "api/request/shared_members.h"
+#include "core/geometry/moving_obstacle.h"
 #include "core/model/zone.h"
 
 namespace fleetplan::api {
+
+/// Reads `obstacles` (may be absent), in the map frame. Motion before t = 0 is cut off, and an obstacle that
+/// is gone by then is left out. `ids` has those of the robots.
+std::vector<core::MovingObstacle> parse_obstacles(const JsonReader& member, const WorldFrame& frame,
+                                                  const Limits& limits, UniqueIds& ids);
+
+// The parts that requests share: reading the body, and the map, the robots and the options in it.
 
 /// `map`, `robots` (with `robot_defaults`), `obstacles`, `zones` and `options` of a request, as far as they
 /// could be read.

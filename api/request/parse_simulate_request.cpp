@@ -9,9 +9,9 @@
 #include "api/json/json_reader.h"
 #include "api/request/fleet/parse_actions.h"
 #include "api/request/fleet/parse_plans.h"
+#include "api/request/limits.h"
 #include "api/request/parse_body.h"
 #include "api/request/parse_request.h"
-#include "api/request/ranges.h"
 #include "core/execution/simulation/disturbance.h"
 
 namespace fleetplan::api {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Pictures of plans: draw_plan.cpp writes SVG, paint_plan.cpp pixels.
+// Pictures of plans, as SVG and in pixels.
 
 #include <optional>
 #include <string>

@@ -1,5 +1,3 @@
-#include "api/response/write_simulation.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "api/json/json_writer.h"
+#include "api/request/parse_request.h"
 #include "api/response/write_response.h"
 
 namespace fleetplan::api {

@@ -8,8 +8,7 @@
 
 #include "api/json/faults.h"
 #include "api/request/fleet/parse_robots.h"
-#include "api/request/ranges.h"
-#include "api/vda5050/messages.h"
+#include "api/request/limits.h"
 
 namespace fleetplan::api {
 

@@ -7,9 +7,9 @@
 #include "api/json/faults.h"
 #include "api/request/fleet/parse_plans.h"
 #include "api/request/fleet/parse_robots.h"
+#include "api/request/limits.h"
 #include "api/request/options.h"
-#include "api/request/ranges.h"
-#include "api/vda5050/messages.h"
+#include "api/vda5050/order_base.h"
 #include "api/vda5050/route.h"
 #include "core/execution/executed_actions.h"
 

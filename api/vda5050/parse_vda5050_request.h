@@ -13,7 +13,6 @@
 #include "api/json/json_reader.h"
 #include "api/request/limits.h"
 #include "api/vda5050/order_base.h"
-#include "api/vda5050/release.h"
 #include "api/vda5050/route.h"
 #include "core/execution/dependency.h"
 #include "core/execution/executed_actions.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "api/request/map/image/image_reader.h"
+#include "api/request/map/image/decode_image.h"
 #include "tests/fuzz/made_image.h"
 #include "tests/fuzz/require.h"
 #include "tests/fuzz/target.h"

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "api/json/faults.h"
-#include "api/request/ranges.h"
+#include "api/request/limits.h"
 #include "core/geometry/tolerance.h"
 
 namespace fleetplan::api {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "api/json/faults.h"
-#include "api/request/ranges.h"
+#include "api/request/limits.h"
 #include "core/geometry/angle.h"
 #include "core/geometry/tolerance.h"
 

@@ -14,8 +14,8 @@
 #include "api/json/faults.h"
 #include "api/request/fleet/parse_actions.h"
 #include "api/request/fleet/parse_robots.h"
+#include "api/request/limits.h"
 #include "api/request/parse_body.h"
-#include "api/request/ranges.h"
 #include "core/execution/executed_actions.h"
 #include "core/geometry/segment.h"
 

@@ -11,7 +11,7 @@
 
 #include "api/json/faults.h"
 #include "api/request/fleet/parse_actions.h"
-#include "api/request/ranges.h"
+#include "api/request/limits.h"
 #include "api/request/shared_members.h"
 #include "core/geometry/angle.h"
 #include "core/geometry/tolerance.h"

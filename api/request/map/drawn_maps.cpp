@@ -9,7 +9,7 @@
 
 #include "api/json/faults.h"
 #include "api/json/result.h"
-#include "api/request/map/map_kinds.h"
+#include "api/request/map/parse_map.h"
 #include "core/map/occupancy_grid.h"
 #include "core/runtime/work.h"
 

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "api/vda5050/release.h"
 #include "tests/support/plan_builder.h"
 #include "tests/support/unbounded_work.h"
 

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "api/json/faults.h"
-#include "api/request/map/image/image_reader.h"
 
 namespace fleetplan::api {
 

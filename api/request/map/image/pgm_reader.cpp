@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "api/request/map/image/image_reader.h"
+#include "api/request/map/image/decode_image.h"
 
 namespace fleetplan::api {
 

@@ -17,7 +17,7 @@
 #include <string_view>
 #include <vector>
 
-#include "api/request/map/image/image_reader.h"
+#include "api/request/map/image/decode_image.h"
 
 namespace fleetplan::api {
 

@@ -1,11 +1,10 @@
-#include "api/request/map/image/image_reader.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
+#include "api/request/map/image/decode_image.h"
 #include "tests/api/support/images.h"
 
 namespace fleetplan::api {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "api/request/map/image/image_reader.h"
+#include "api/request/map/image/decode_image.h"
 #include "core/runtime/memory_account.h"
 #include "tests/support/png_chunks.h"
 #include "tests/support/unbounded_work.h"

@@ -1,15 +1,18 @@
 #pragma once
 
-// The shapes of zones: polygons, and masks, which are images of the map.
+// Zones of requests. Their shapes are polygons, or masks, which are images of the map.
 
 #include <cstdint>
 #include <vector>
 
 #include "api/json/json_reader.h"
+#include "api/request/fleet/parse_robots.h"
+#include "api/request/limits.h"
+#include "api/request/map/parse_map.h"
 #include "api/request/shared_members.h"
-#include "api/request/world_frame.h"
 #include "core/geometry/position.h"
 #include "core/map/occupancy_grid.h"
+#include "core/model/zone.h"
 
 namespace fleetplan::api {
 
@@ -30,5 +33,15 @@ struct MaskPart {
 /// parts of a request take their corners from the quota.
 std::vector<MaskPart> parse_mask(const JsonReader& member, const core::OccupancyGrid& map, bool by_percent,
                                  Quota& corners);
+
+/// The robots that zones may name: those of the request, or also others, which are not there.
+enum class ZoneRobots { of_request, also_others };
+
+/// Reads `zones` (may be absent), in the frame of the map; those with a fault are left out. Their robots are
+/// indices into `robots`; one that is not there has the first index that is none. A mask becomes several
+/// zones of one id, which follow each other. Without a map (null), masks are not read.
+std::vector<core::Zone> parse_zones(const JsonReader& member, const WorldMap* map, const Limits& limits,
+                                    const std::vector<ParsedRobot>& robots,
+                                    ZoneRobots named = ZoneRobots::of_request);
 
 }  // namespace fleetplan::api

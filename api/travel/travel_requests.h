@@ -1,8 +1,9 @@
 #pragma once
 
-// The request of POST /v1/assign and its answer.
+// The requests of POST /v1/matrix and POST /v1/assign, and their answers.
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -13,10 +14,37 @@
 #include "api/request/limits.h"
 #include "api/request/parse_request.h"
 #include "core/map/static_map.h"
+#include "core/model/plan_options.h"
+#include "core/model/problem.h"
 #include "core/runtime/work.h"
 #include "core/travel/arrivals.h"
+#include "core/travel/travel_times.h"
 
 namespace fleetplan::api {
+
+inline constexpr std::array<std::string_view, 6> kMatrixMembers{"map",  "zones", "robot",
+                                                                "from", "to",    "options"};
+
+/// A valid body of POST /v1/matrix.
+struct MatrixRequest {
+  core::Problem problem;  // the robot once for each pose of `from`, one at a time, in the map frame
+  core::PlanOptions options;
+  core::TravelQuestions questions;  // a column for each pose of `to`
+  std::chrono::nanoseconds budget;
+  std::vector<std::string> warnings;
+
+  std::size_t rows() const { return problem.robots().size(); }
+  std::size_t columns() const { return questions.columns.size(); }
+};
+
+/// Reads the root of the document. Returns none if it has faults, or if its stop is met. `maps`, which may be
+/// null, has the maps of earlier requests.
+std::optional<MatrixRequest> parse_matrix_request(const JsonReader& root, const Limits& limits,
+                                                  core::Work& stop, core::MapCache* maps);
+
+/// Returns the answer; none if `stop` is met first.
+std::optional<std::string> write_matrix(const MatrixRequest& request, const core::TravelAnswers& answers,
+                                        const core::StopCondition& stop);
 
 inline constexpr std::array<std::string_view, 2> kAssignMembers{"request", "tasks"};
 
@@ -31,7 +59,7 @@ struct AssignRequest {
   JsonReader request;             // the member of the body
 };
 
-/// Reads the root of the document. Nothing if it has faults, or if its stop is met. `maps`, which may be
+/// Reads the root of the document. Returns none if it has faults, or if its stop is met. `maps`, which may be
 /// null, has the maps of earlier requests.
 std::optional<AssignRequest> parse_assign_request(const JsonReader& root, const Limits& limits,
                                                   core::Work& stop, core::MapCache* maps);
@@ -43,13 +71,13 @@ struct Assigned {
 };
 
 /// Gives each task to one robot, at most one each, at the least sum of weighted arrivals; `arrivals` as by
-/// core::arrivals(). If there are too few robots, the tasks without one weigh the least. None if `stop` is
-/// met first.
+/// core::arrivals(). If there are too few robots, the tasks without one weigh the least. Returns none if
+/// `stop` is met first.
 std::optional<std::vector<std::optional<Assigned>>> assigned(const AssignRequest& request,
                                                              const std::vector<std::vector<double>>& arrivals,
                                                              const core::StopCondition& stop);
 
-/// The request of the body, with the goals of the tasks after those that their robots have, `assigned` and
+/// Returns the request of the body, with the goals of the tasks after those that their robots have, `assigned` and
 /// `unassigned`. `any_way`: by task, whether any robot could do it.
 std::string write_assigned(const AssignRequest& request, const std::vector<std::optional<Assigned>>& assigned,
                            const std::vector<bool>& any_way);
