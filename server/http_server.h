@@ -17,9 +17,9 @@
 #include "server/http/request/body_reader.h"
 #include "server/http/static_files.h"
 #include "server/jobs/job_runner.h"
-#include "server/ops/metrics/metrics.h"
+#include "server/ops/metrics.h"
 #include "server/ops/request_log.h"
-#include "server/ops/settings/settings.h"
+#include "server/ops/settings.h"
 #include "server/routes.h"
 #include "server/service/service.h"
 

@@ -16,8 +16,7 @@
 #include "server/http_server.h"
 #include "server/ops/health_probe.h"
 #include "server/ops/process.h"
-#include "server/ops/settings/settings.h"
-#include "server/ops/version.h"
+#include "server/ops/settings.h"
 #include "server/service/service.h"
 
 namespace fleetplan::server {

@@ -7,13 +7,13 @@
 
 #include "api/json/error.h"
 #include "api/json/json_writer.h"
-#include "server/http/answer/event_stream.h"
+#include "server/http/answer/direct_answers.h"
 #include "server/http/exchange.h"
 #include "server/http/request/negotiation.h"
 #include "server/http/route_table.h"
 #include "server/http/text.h"
-#include "server/ops/metrics/metrics_text.h"
-#include "server/ops/version.h"
+#include "server/ops/metrics.h"
+#include "server/ops/process.h"
 
 namespace fleetplan::server {
 

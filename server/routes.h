@@ -8,7 +8,7 @@
 #include "api/endpoints/plan_events.h"
 #include "server/http/route_table.h"
 #include "server/http/static_files.h"
-#include "server/ops/settings/settings.h"
+#include "server/ops/settings.h"
 #include "server/service/service.h"
 
 namespace fleetplan::server {

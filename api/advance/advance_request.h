@@ -53,9 +53,9 @@ Circumstances make_acceptable(AdvanceRequest& request, std::vector<core::Robot>&
                               const std::vector<std::vector<core::Action>>& braking, core::MapCache* maps,
                               core::Work& stop);
 
-/// Returns the request of the moment: that of the body with the starts, goals, committed and previous actions of
-/// these robots, what is left of its obstacles, and the options that it needs where they are; everything else
-/// is copied. Then `progress`, and `unavoidable` if robots overlap or cannot stop in time. The text ends
+/// Returns the request of the moment: that of the body with the starts, goals, committed and previous actions
+/// of these robots, what is left of its obstacles, and the options that it needs where they are; everything
+/// else is copied. Then `progress`, and `unavoidable` if robots overlap or cannot stop in time. The text ends
 /// anywhere once the work is met.
 std::string write_advanced(const AdvanceRequest& request, const std::vector<core::Robot>& robots,
                            const Circumstances& circumstances, core::Work& work);

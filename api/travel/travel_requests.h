@@ -77,8 +77,8 @@ std::optional<std::vector<std::optional<Assigned>>> assigned(const AssignRequest
                                                              const std::vector<std::vector<double>>& arrivals,
                                                              const core::StopCondition& stop);
 
-/// Returns the request of the body, with the goals of the tasks after those that their robots have, `assigned` and
-/// `unassigned`. `any_way`: by task, whether any robot could do it.
+/// Returns the request of the body, with the goals of the tasks after those that their robots have,
+/// `assigned` and `unassigned`. `any_way`: by task, whether any robot could do it.
 std::string write_assigned(const AssignRequest& request, const std::vector<std::optional<Assigned>>& assigned,
                            const std::vector<bool>& any_way);
 

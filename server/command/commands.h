@@ -1,14 +1,64 @@
 #pragma once
 
+// The commands of the program: what they read and write, their faults of input and exit codes, and which one
+// runs.
+
+#include <cstddef>
 #include <functional>
+#include <iosfwd>
+#include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "server/command/command_io.h"
+#include "api/json/result.h"
 #include "server/service/service.h"
 
 namespace fleetplan::server {
+
+/// The streams of a process.
+struct Streams {
+  std::istream& in;
+  std::ostream& out;
+  std::ostream& err;
+  bool shows_progress = false;  // `err` is a terminal
+};
+
+/// Exit codes of commands.
+inline constexpr int kSolved = 0;     // also for a valid plan, or for what else was asked for
+inline constexpr int kFailed = 1;     // not the request's fault: out of time or memory, a file, a bug
+inline constexpr int kPartial = 2;    // some robots have no plan; plans are not valid
+inline constexpr int kNone = 3;       // no robot has a plan
+inline constexpr int kBadInput = 64;  // the request or the command line, as EX_USAGE of sysexits.h
+
+/// Why input cannot be used, as a line for people: "map.yaml:3: resolution is missing; give ...".
+struct InputFault {
+  std::string line;
+};
+
+/// Makes a fault. `line` is that of the file, from 1; 0: the file as a whole.
+InputFault input_fault(const std::string& file, std::size_t line, const std::string& detail);
+
+/// Reads all of a file, or of `in` for "-". A file of more than `most` bytes is not read to its end.
+api::Result<std::string, InputFault> read_file(const std::string& name, std::istream& in,
+                                               std::size_t most = std::numeric_limits<std::size_t>::max());
+
+/// Returns the name of an input file for messages.
+std::string shown_name(const std::string& file);
+
+/// Writes the text to a file. Returns whether all of it was written.
+bool write_file(const std::string& name, const std::string& text);
+
+/// Writes what a command is asked for to a file, or to the standard output if the name is empty. Returns the
+/// exit code.
+int write_output(const std::string& name, const std::string& text, const Streams& streams);
+
+/// Reports why a command fails; returns the exit code.
+int fail(const Streams& streams, int code, const std::string& message);
+
+/// Reads a finite number with a point, such as "-1.5e3" or "+2"; none if the text is anything else.
+std::optional<double> read_number(std::string_view text);
 
 /// Runs `fleetplan COMMAND ...`, which answers one request from a file as the service would over HTTP.
 /// Returns the exit code, or nothing if the arguments name no command: then they are settings of the server.

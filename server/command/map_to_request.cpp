@@ -15,7 +15,7 @@
 #include "api/json/json_writer.h"
 #include "api/json/read_json.h"
 #include "api/request/parse_request.h"
-#include "server/command/command_io.h"
+#include "server/command/commands.h"
 
 namespace fleetplan::server {
 

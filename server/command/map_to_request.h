@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "server/command/command_io.h"
+#include "server/command/commands.h"
 
 namespace fleetplan::server {
 

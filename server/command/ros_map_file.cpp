@@ -13,7 +13,7 @@
 #include "api/json/faults.h"
 #include "api/json/json_writer.h"
 #include "api/request/limits.h"
-#include "server/command/command_io.h"
+#include "server/command/commands.h"
 #include "server/command/map_to_request.h"
 
 namespace fleetplan::server {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "server/http/request/request_id.h"
+#include "server/http/request/request_head.h"
 #include "server/http/text.h"
 
 namespace fleetplan::server {

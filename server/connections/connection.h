@@ -11,11 +11,11 @@
 #include <system_error>
 
 #include "server/connections/steps.h"
-#include "server/http/answer/answer_text.h"
+#include "server/http/answer/direct_answers.h"
 #include "server/http/answer/unsent_answers.h"
 #include "server/http/exchange.h"
 #include "server/http/request/body_reader.h"
-#include "server/ops/settings/settings.h"
+#include "server/ops/settings.h"
 
 namespace fleetplan::server {
 

@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "api/json/error.h"
-#include "server/http/answer/answer_text.h"
+#include "server/http/answer/direct_answers.h"
 #include "server/http/exchange.h"
 #include "server/http/http_library.h"
 #include "server/http/request/negotiation.h"

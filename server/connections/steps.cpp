@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "server/http/request/negotiation.h"
-#include "server/http/request/request_id.h"
+#include "server/http/request/request_head.h"
 #include "server/http/text.h"
 
 namespace fleetplan::server {

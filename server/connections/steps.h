@@ -24,12 +24,12 @@
 #include <optional>
 #include <string>
 
-#include "server/http/answer/answer_text.h"
+#include "server/http/answer/direct_answers.h"
 #include "server/http/exchange.h"
 #include "server/http/request/access.h"
-#include "server/ops/metrics/metrics.h"
+#include "server/ops/metrics.h"
 #include "server/ops/request_log.h"
-#include "server/ops/settings/settings.h"
+#include "server/ops/settings.h"
 
 namespace fleetplan::server {
 

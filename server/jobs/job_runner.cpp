@@ -10,10 +10,10 @@
 #include <variant>
 
 #include "api/json/error.h"
+#include "server/http/request/access.h"
 #include "server/http/request/gzip.h"
 #include "server/http/request/negotiation.h"
 #include "server/ops/request_log.h"
-#include "server/ops/settings/client_address.h"
 
 namespace fleetplan::server {
 

@@ -15,7 +15,7 @@
 #include "server/jobs/peer_watch.h"
 #include "server/jobs/workers.h"
 #include "server/ops/request_log.h"
-#include "server/ops/settings/settings.h"
+#include "server/ops/settings.h"
 #include "server/service/service.h"
 
 namespace fleetplan::server {

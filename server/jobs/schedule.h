@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "server/ops/metrics/worker_load.h"
+#include "server/ops/metrics.h"
 
 namespace fleetplan::server {
 

@@ -13,7 +13,7 @@
 #include "core/runtime/executor.h"
 #include "core/runtime/stop_condition.h"
 #include "server/jobs/schedule.h"
-#include "server/ops/metrics/worker_load.h"
+#include "server/ops/metrics.h"
 
 namespace fleetplan::server {
 

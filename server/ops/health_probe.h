@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "server/ops/settings/settings.h"
+#include "server/ops/settings.h"
 
 namespace fleetplan::server {
 

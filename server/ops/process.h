@@ -1,8 +1,15 @@
 #pragma once
 
-// The process and the system: its descriptors, its memory, and what it uses of both.
+// This process and its system: its version, its descriptors, memory and processors, and what it uses of them.
+
+#include <filesystem>
+#include <istream>
+#include <optional>
 
 namespace fleetplan::server {
+
+/// The version of this build, e.g. "0.1.0" (set by the build system).
+inline constexpr const char* kVersion = FLEETPLAN_VERSION;
 
 /// Opens the null device as each of the descriptors 0 to 2 that is closed. Otherwise a connection could get
 /// that number and receive the log. Call it before anything else is opened.
@@ -28,5 +35,14 @@ struct ProcessStats {
 };
 
 ProcessStats process_stats();
+
+/// Returns the number of processors that this process may use: the smaller of its affinity and the CPU quota
+/// of its control groups (v2 or v1), rounded down, at least 1.
+int cpus_granted();
+
+/// Returns the smallest CPU quota, in processors, of the control groups that `membership` names (the lines of
+/// /proc/self/cgroup) and of the groups above them, read below `mounts` (/sys/fs/cgroup). Returns none
+/// when unlimited.
+std::optional<double> cpu_quota(std::istream& membership, const std::filesystem::path& mounts);
 
 }  // namespace fleetplan::server

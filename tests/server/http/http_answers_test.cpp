@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "server/ops/version.h"
+#include "server/ops/process.h"
 #include "tests/server/support/test_server.h"
 
 namespace fleetplan::server {

@@ -1,12 +1,11 @@
 // Plans as streams of events, over real sockets, with a stub in place of the planner.
 
-#include "server/http/answer/event_stream.h"
-
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <thread>
 
+#include "server/http/answer/direct_answers.h"
 #include "tests/server/support/events.h"
 #include "tests/server/support/soon.h"
 #include "tests/server/support/test_server.h"

@@ -1,8 +1,7 @@
 
-#include "server/http/request/request_id.h"
-
 #include <gtest/gtest.h>
 
+#include "server/http/request/request_head.h"
 #include "tests/server/support/test_server.h"
 
 namespace fleetplan::server {

@@ -9,7 +9,6 @@
 
 #include "api/request/limits.h"
 #include "server/http/request/access.h"
-#include "server/ops/settings/client_address.h"
 
 namespace fleetplan::server {
 

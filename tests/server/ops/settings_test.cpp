@@ -1,9 +1,9 @@
-#include "server/ops/settings/settings.h"
+#include "server/ops/settings.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "server/ops/settings/cpu_count.h"
+#include "server/ops/process.h"
 #include "tests/server/support/environment.h"
 #include "tests/support/temporary_file.h"
 

@@ -1,7 +1,7 @@
 
-#include "server/ops/settings/client_address.h"
-
 #include <gtest/gtest.h>
+
+#include "server/http/request/access.h"
 
 namespace fleetplan::server {
 namespace TEST_FILE {

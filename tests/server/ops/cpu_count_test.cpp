@@ -1,10 +1,9 @@
-#include "server/ops/settings/cpu_count.h"
-
 #include <gtest/gtest.h>
 
 #include <sstream>
 #include <string>
 
+#include "server/ops/process.h"
 #include "tests/support/temporary_folder.h"
 
 namespace fleetplan::server {

@@ -1,6 +1,6 @@
 // GET /metrics over a socket, as Prometheus reads it.
 
-#include "server/ops/metrics/metrics.h"
+#include "server/ops/metrics.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,8 +11,7 @@
 #include <set>
 #include <sstream>
 
-#include "server/ops/metrics/metrics_text.h"
-#include "server/ops/version.h"
+#include "server/ops/process.h"
 #include "tests/server/support/declared_routes.h"
 #include "tests/server/support/soon.h"
 #include "tests/server/support/test_server.h"

@@ -1,4 +1,4 @@
-#include "server/ops/settings/settings.h"
+#include "server/ops/settings.h"
 
 #include <unistd.h>
 
@@ -18,8 +18,7 @@
 #include "server/http/request/access.h"
 #include "server/http/static_files.h"
 #include "server/http/text.h"
-#include "server/ops/settings/cpu_count.h"
-#include "server/ops/version.h"
+#include "server/ops/process.h"
 
 namespace fleetplan::server {
 
