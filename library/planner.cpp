@@ -1,5 +1,6 @@
 #include "core/planner.h"
 
+#include <fleetplan/fleetplan.h>
 #include <fleetplan/planner.h>
 
 #include <algorithm>
@@ -106,5 +107,7 @@ const RobotPlan* Plan::plan_of(std::size_t robot) const {
                                       [](const RobotPlan& plan, std::size_t r) { return plan.robot < r; });
   return found != plans.end() && found->robot == robot ? &*found : nullptr;
 }
+
+const char* version() { return FLEETPLAN_VERSION; }
 
 }  // namespace fleetplan
