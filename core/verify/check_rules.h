@@ -1,9 +1,13 @@
 #pragma once
 
-// The input of a check: the fleet, the rules and the tolerances.
+// The input of a check, which is the fleet, the rules and the tolerances; and the violations that it finds.
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/geometry/moving_obstacle.h"
@@ -61,5 +65,102 @@ struct CheckRules {
   /// uninterrupted overlap that contains UnavoidableCollision::t (of the bare disks; contact counts).
   std::vector<UnavoidableCollision> exempt = {};
 };
+
+// Violations of the rules by a plan, and lists and texts of them.
+
+/// The maximum number of overlaps of robots in a report. Many robots in one place have millions of them.
+inline constexpr std::size_t kMostCollisions = 10'000;
+
+/// The maximum number of violations in a report. Every action may have several.
+inline constexpr std::size_t kMostViolations = 10'000;
+
+/// A violation of the rules by a plan. All numbers are finite.
+///
+/// The kinds, and what `distance` and `required` are:
+///
+/// - robot_collision: two disks overlap; one violation for each uninterrupted overlap. The distance of the
+///   centres, and the sum of the radii.
+/// - obstacle_collision: a disk overlaps a blocked cell or leaves the map; one violation for each action, or
+///   one for consecutive actions through which the overlap continues. The distance from the centre to the
+///   obstacle (0: inside), and the radius.
+/// - discontinuity: a gap in time or position, an action that contradicts its type, or a cost other than the
+///   last t_end. The gap or jump, and 0; or a time, and the required time. Also a number that is not finite
+///   or beyond 1e30: then the robot is not checked any further.
+/// - speed: faster than the robot. The speed, and the robot's; or for an action without duration the
+///   duration, and the shortest possible one. Also a translation that leads off the line of its heading
+///   (forwards or backwards): by how many metres, and 0.
+/// - profile: a robot whose acceleration is limited has no profile of speed, or one that it cannot follow or
+///   that does not lead from one pose to the other. A speed, and the required one; or the length (or angle)
+///   that the profile covers, and that of the action; or a duration, and the shortest possible one.
+/// - wrong_start, wrong_goal: the distance of the first or the resting pose from the required one, and 0.
+///   Parked robots must rest at their start or committed end, in any heading. A robot without a plan is
+///   unplanned, which is allowed.
+/// - wrong_visit: a goal that is not served in its order, in time and for its service, or a visit that a plan
+///   or the `goal` of a wait claims but that does not take place. A time, and the required time; or how far
+///   the robot rests from the goal, and 0.
+/// - committed_changed: a plan that does not begin with the committed actions. By how much the first number
+///   that differs does, and 0; or the number of actions, and of committed ones.
+/// - margin: a robot passes where another one is up to the interval margin earlier or later. The distance of
+///   the centres, and the sum of the radii.
+/// - moving_obstacle: a disk overlaps a moving obstacle; one violation for each uninterrupted overlap. The
+///   distance of the centres, and the sum of the radii.
+/// - zone: the rule of a zone is broken. Blocked: a disk overlaps it; one violation for each uninterrupted
+///   overlap: the distance from the centre to the zone (0: inside), and the radius. Speed and one-way: one
+///   violation for each action that has the centre deeper inside than the tolerance: its speed, and the
+///   greatest allowed one; or the angle between its direction and the heading, and the greatest one.
+struct Violation {
+  enum class Kind {
+    robot_collision,
+    obstacle_collision,
+    discontinuity,
+    speed,
+    profile,
+    wrong_start,
+    wrong_goal,
+    wrong_visit,
+    committed_changed,
+    margin,
+    moving_obstacle,
+    zone,
+  };
+  Kind kind;
+  std::vector<std::size_t> robots;  // indices, ascending; two for robot_collision and margin, one otherwise
+  double t = 0.0;                   // seconds; of a collision, the first time at which the overlap is deepest
+  double distance = 0.0;            // measured: metres, radians, seconds or metres (radians) per second
+  double required = 0.0;            // the limit or required value, same unit
+  std::string detail;               // a sentence for people, with units; names no robots by index
+  std::optional<std::size_t> obstacle = {};  // moving_obstacle: index of the obstacle
+  std::optional<double> t_begin = {};        // robot_collision: when the overlap begins, seconds
+  std::optional<std::size_t> zone = {};      // zone: index of the zone
+};
+
+/// Violations, of which the first kMostViolations by time, then kind, then robots are kept, and all counted.
+class ViolationList {
+ public:
+  void add(Violation violation);
+  void add(ViolationList more);
+
+  std::size_t total() const { return total_; }
+  /// Returns the violations that are kept, in order, and leaves the list empty.
+  std::vector<Violation> take();
+
+ private:
+  void keep(Violation violation);
+  void sort_and_cut();
+
+  std::vector<Violation> kept_;  // at most twice as many as are kept in the end
+  std::size_t total_ = 0;
+};
+
+/// Returns a number with its unit, for the details of violations.
+inline std::string quantity_text(double value, const char* unit) {
+  std::array<char, 48> text{};
+  std::snprintf(text.data(), text.size(), "%.6g %s", value, unit);
+  return text.data();
+}
+
+inline std::string metres(double value) { return quantity_text(value, "m"); }
+inline std::string seconds(double value) { return quantity_text(value, "s"); }
+inline std::string radians(double value) { return quantity_text(value, "rad"); }
 
 }  // namespace fleetplan::core

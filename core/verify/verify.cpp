@@ -8,8 +8,7 @@
 #include "core/geometry/tolerance.h"
 #include "core/verify/execution.h"
 #include "core/verify/pairs/check_pairs.h"
-#include "core/verify/rules/place_rules.h"
-#include "core/verify/rules/plan_rules.h"
+#include "core/verify/rules/robot_rules.h"
 
 namespace fleetplan::core {
 namespace {
@@ -171,21 +170,6 @@ class FleetCheck {
 };
 
 }  // namespace
-
-std::optional<VerifyReport> verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,
-                                   const std::vector<RobotPlan>& plans, double tolerance,
-                                   const StopCondition& stop) {
-  return verify(grid, robots, plans, std::vector(robots.size(), Tolerance::of_all(tolerance)), stop);
-}
-
-std::optional<VerifyReport> verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,
-                                   const std::vector<RobotPlan>& plans,
-                                   const std::vector<Tolerance>& tolerances, const StopCondition& stop) {
-  const std::vector<MovingObstacle> none;
-  CheckRules rules;
-  rules.tolerances = tolerances;
-  return verify({grid, robots, none}, plans, rules, stop);
-}
 
 std::optional<VerifyReport> verify(const CheckedFleet& fleet, const std::vector<RobotPlan>& plans,
                                    const CheckRules& rules, const StopCondition& stop) {

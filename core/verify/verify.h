@@ -15,7 +15,6 @@
 #include "core/model/robot.h"
 #include "core/runtime/stop_condition.h"
 #include "core/verify/check_rules.h"
-#include "core/verify/violations.h"
 
 namespace fleetplan::core {
 
@@ -39,16 +38,6 @@ struct VerifyReport {
 /// belong to the same one.
 std::optional<VerifyReport> verify(const CheckedFleet& fleet, const std::vector<RobotPlan>& plans,
                                    const CheckRules& rules, const StopCondition& stop);
-
-/// Makes the plainest check, without moving obstacles. `tolerance` (>= 0) in metres, seconds and radians.
-std::optional<VerifyReport> verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,
-                                   const std::vector<RobotPlan>& plans, double tolerance,
-                                   const StopCondition& stop);
-
-/// Makes the plainest check, with tolerances by robot.
-std::optional<VerifyReport> verify(const OccupancyGrid& grid, const std::vector<Robot>& robots,
-                                   const std::vector<RobotPlan>& plans,
-                                   const std::vector<Tolerance>& tolerances, const StopCondition& stop);
 
 /// Checks a plan of the planner. Returns none if `stop` is met first.
 std::optional<VerifyReport> check_plan(const Problem& problem, const PlanOptions& options, const Plan& plan,

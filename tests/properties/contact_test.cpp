@@ -22,6 +22,7 @@
 #include "core/verify/pairs/fleet_clearance.h"
 #include "core/verify/verify.h"
 #include "tests/support/expect_safe.h"
+#include "tests/support/plain_check.h"
 #include "tests/support/random_problem.h"
 #include "tests/support/step_limit.h"
 #include "tests/support/summary.h"

@@ -13,6 +13,7 @@
 #include "core/verify/verify.h"
 #include "tests/support/moving_fleet.h"
 #include "tests/support/own_pace.h"
+#include "tests/support/plain_check.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/summary.h"
 

@@ -10,6 +10,7 @@
 #include "core/planner.h"
 #include "core/verify/verify.h"
 #include "tests/support/expect_bounds.h"
+#include "tests/support/plain_check.h"
 #include "tests/support/random_problem.h"
 #include "tests/support/summary.h"
 

@@ -15,6 +15,7 @@
 #include "core/model/problem.h"
 #include "core/prioritized/plan_state.h"
 #include "core/verify/verify.h"
+#include "tests/support/plain_check.h"
 #include "tests/support/summary.h"
 
 namespace fleetplan::support {

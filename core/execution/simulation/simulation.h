@@ -18,7 +18,7 @@
 #include "core/runtime/executor.h"
 #include "core/runtime/stop_condition.h"
 #include "core/verify/execution.h"
-#include "core/verify/geometry/obstacle_field.h"
+#include "core/verify/geometry/obstacle_distance.h"
 
 namespace fleetplan::core {
 

@@ -7,7 +7,6 @@
 #include "core/runtime/stop_condition.h"
 #include "core/verify/check_rules.h"
 #include "core/verify/execution.h"
-#include "core/verify/violations.h"
 
 namespace fleetplan::core {
 

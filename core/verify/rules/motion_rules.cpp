@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/geometry/angle.h"
-#include "core/verify/rules/plan_rules.h"
+#include "core/verify/rules/robot_rules.h"
 
 namespace fleetplan::core {
 namespace {

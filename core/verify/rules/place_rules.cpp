@@ -1,5 +1,3 @@
-#include "core/verify/rules/place_rules.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,6 +5,7 @@
 
 #include "core/geometry/angle.h"
 #include "core/geometry/tolerance.h"
+#include "core/verify/rules/robot_rules.h"
 
 namespace fleetplan::core {
 namespace {

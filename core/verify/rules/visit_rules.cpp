@@ -8,7 +8,7 @@
 #include "core/geometry/angle.h"
 #include "core/geometry/segment.h"
 #include "core/geometry/tolerance.h"
-#include "core/verify/rules/plan_rules.h"
+#include "core/verify/rules/robot_rules.h"
 
 namespace fleetplan::core {
 namespace {

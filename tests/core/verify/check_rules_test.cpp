@@ -5,6 +5,7 @@
 
 #include "core/geometry/tolerance.h"
 #include "tests/core/verify/scene.h"
+#include "tests/support/plain_check.h"
 
 namespace fleetplan::core {
 namespace TEST_FILE {

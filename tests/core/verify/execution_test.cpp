@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/verify/pairs/moving_boxes.h"
+#include "core/verify/pairs/fleet_clearance.h"
 #include "tests/core/verify/scene.h"
 
 namespace fleetplan::core {

@@ -11,6 +11,7 @@
 #include "core/verify/pairs/fleet_clearance.h"
 #include "tests/core/verify/random_fleet.h"
 #include "tests/core/verify/scene.h"
+#include "tests/support/plain_check.h"
 
 namespace fleetplan::core {
 namespace TEST_FILE {

@@ -1,7 +1,5 @@
 // The distance to obstacles in known cases, and compared with a loop over all cells.
 
-#include "core/verify/geometry/obstacle_field.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include "core/verify/geometry/obstacle_distance.h"
 #include "tests/support/ascii_map.h"
 
 namespace fleetplan::core {

@@ -12,6 +12,7 @@
 
 #include "core/verify/verify.h"
 #include "tests/support/ascii_map.h"
+#include "tests/support/plain_check.h"
 #include "tests/support/plan_builder.h"
 
 namespace fleetplan::core {

@@ -1,8 +1,8 @@
-#include "core/verify/geometry/segment_distance.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "core/verify/geometry/obstacle_distance.h"
 
 namespace fleetplan::core {
 namespace TEST_FILE {

@@ -1,8 +1,8 @@
-#include "core/verify/violations.h"
-
 #include <gtest/gtest.h>
 
+#include "core/verify/check_rules.h"
 #include "tests/core/verify/scene.h"
+#include "tests/support/plain_check.h"
 
 namespace fleetplan::core {
 namespace TEST_FILE {
