@@ -12,12 +12,11 @@
 
 #include <vector>
 
-#include "core/geometry/moving_obstacle.h"
 #include "core/map/occupancy_grid.h"
 #include "core/model/plan.h"
 #include "core/model/plan_options.h"
 #include "core/model/robot.h"
-#include "core/model/zone.h"
+#include "core/model/surroundings.h"
 #include "core/verify/verify.h"
 
 namespace fleetplan::library {

@@ -7,10 +7,9 @@
 #include <stop_token>
 #include <vector>
 
-#include "core/geometry/moving_obstacle.h"
 #include "core/model/problem.h"
 #include "core/model/robot.h"
-#include "core/model/zone.h"
+#include "core/model/surroundings.h"
 
 namespace fleetplan::library {
 

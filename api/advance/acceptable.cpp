@@ -15,7 +15,8 @@ namespace {
 using core::Action;
 using core::ProblemFault;
 
-/// Of a radius: a disk of which less is clear of a wall has its centre in it, for whatever `start_overlap`.
+/// A share of the radius: a disk that is clear of a wall by less has its centre in it, whatever
+/// `start_overlap` allows.
 constexpr double kCentre = 2e-3;
 
 /// Seconds: an action that ends by so much after a time is under way then.

@@ -283,7 +283,8 @@ Course usual_course(const core::Robot& robot, const Execution& execution, const 
   return course;
 }
 
-/// Of a robot in a fleet in which some are released to go on: it does what is released, and then stands.
+/// Returns the course of a robot in a fleet in which some are released to go on: it does what is released,
+/// and then stands.
 Course standing_course(const core::Robot& robot, const Execution& execution, const Located& located,
                        const Moment& moment) {
   if (!is_released(execution) || located.is_elsewhere) {

@@ -9,10 +9,9 @@
 #include <optional>
 #include <vector>
 
-#include "core/geometry/moving_obstacle.h"
 #include "core/model/action.h"
 #include "core/model/robot.h"
-#include "core/model/zone.h"
+#include "core/model/surroundings.h"
 #include "core/runtime/work.h"
 
 namespace fleetplan::api {
@@ -26,8 +25,8 @@ struct Moment {
   std::optional<double> commit;  // the horizon of commitment; none: the action under way
   double pose_tolerance = 0.1;
   double wait_before_move = 0.0;  // of the request's options
-  double inflation = 0.0;         // likewise
-  bool has_horizon = false;       // likewise; then the ages of goals count
+  double inflation = 0.0;         // of the request's options
+  bool has_horizon = false;       // of the request's options; then the ages of goals count
   /// If robots have reported how far they are released: then each is committed to that and stands until this
   /// time at least, see standing_time.
   std::optional<double> stand_until = {};
@@ -59,45 +58,47 @@ struct Execution {
   bool stays_when_served = false;  // then it has no goal any more, and does not move
 };
 
-/// The robot of the request of that moment: its start, goals, radius, committed and previous actions. Its
-/// radius is the one after the goals that it has left behind, and after a last goal that it has served. It
-/// has no previous actions if it has no plan, is elsewhere than planned, or gets other goals.
+/// Returns the robot of the request of that moment: its start, goals, radius, committed and previous actions.
+/// Its radius is the one after the goals that it has left behind, and after a last goal that it has served.
+/// It has no previous actions if it has no plan, is elsewhere than planned, or gets other goals.
 core::Robot advanced(const core::Robot& robot, const Execution& execution, const Moment& moment);
 
-/// By robot: what one that drives at the moment cannot leave out, on the clock of the moment: its motion
-/// until it can stand, which it can after its stop distance, and where its plan has it stand. Empty for one
-/// that stands, by its plan or because it says so, turns, or is not on its path.
+/// Returns by robot what one that drives at the moment cannot leave out, on the clock of the moment: its
+/// motion until it can stand, which it can after its stop distance, and where its plan has it stand. Empty
+/// for one that stands, by its plan or because it says so, turns, or is not on its path.
 std::vector<std::vector<core::Action>> braking_of(const std::vector<core::Robot>& robots,
                                                   const std::vector<Execution>& executions,
                                                   const Moment& moment, core::Work& stop);
 
-/// Until when all robots stand, if some have reported how far they are released: until the last of them has
-/// come to where it may drive to, and for the horizon of commitment at least. So nobody leaves what is
-/// released for it before all others have passed what is released for them, and nobody is planned to pass in
-/// front of a robot that nobody can stop any more. None if nobody has reported that.
+/// Returns until when all robots stand, if some have reported how far they are released: until the last of
+/// them has come to where it may drive to, and for the horizon of commitment at least. So nobody leaves what
+/// is released for it before all others have passed what is released for them, and nobody is planned to pass
+/// in front of a robot that nobody can stop any more. Returns none if nobody has reported that.
 std::optional<double> standing_time(const std::vector<core::Robot>& robots,
                                     const std::vector<Execution>& executions, const Moment& moment,
                                     core::Work& stop);
 
-/// By robot, what it keeps around its disk while it is committed: its vicinity and the inflation, metres.
-/// Inflation is there for robots that are not where their plans have them, so it is used up by as much as
-/// they are elsewhere at the moment, up to a half. What is released cannot be shortened for the sake of a
-/// margin: then there is none.
+/// Returns by robot what it keeps around its disk while it is committed: its vicinity and the inflation,
+/// metres. Inflation is there for robots that are not where their plans have them, so it is used up by as
+/// much as they are elsewhere at the moment, up to a half. What is released cannot be shortened for the sake
+/// of a margin: then there is none.
 std::vector<double> margins_of(const std::vector<core::Robot>& robots,
                                const std::vector<Execution>& executions, const Moment& moment,
                                const std::vector<core::Robot>& next, core::Work& stop);
 
-/// All of them. Committed actions end where they touch another robot that is committed or stands at the end
-/// of its commitment: see clear_commitments. `braking`: by robot, see braking_of.
+/// Returns the robots of the request of that moment. Committed actions end where they touch another robot
+/// that is committed or stands at the end of its commitment: see clear_commitments. `braking`: by robot, see
+/// braking_of.
 std::vector<core::Robot> advanced(const std::vector<core::Robot>& robots,
                                   const std::vector<Execution>& executions, const Moment& moment,
                                   const std::vector<std::vector<core::Action>>& braking, core::Work& stop);
 
-/// Where the robot is in its actions at the moment: as reported, otherwise as measured, otherwise as planned.
-/// A robot that has done all of them is at the end of the last one, and one without actions at the beginning.
+/// Returns where the robot is in its actions at the moment: as reported, otherwise as measured, otherwise as
+/// planned. A robot that has done all of them is at the end of the last one, and one without actions at the
+/// beginning.
 Place place_of(const core::Robot& robot, const Execution& execution, const Moment& moment);
 
-/// The rest of an obstacle's motion; nothing if it has left.
+/// Returns the rest of an obstacle's motion; none if it has left.
 std::optional<core::MovingObstacle> advanced(const core::MovingObstacle& obstacle, double at);
 
 /// How far a robot is in its actions.
@@ -112,45 +113,49 @@ struct Remainder {
   std::vector<core::Action> actions;
 };
 
-/// As planned, at this time.
+/// Returns the progress at this time by the plan.
 Progress planned_progress(const std::vector<core::Action>& actions, double at);
 
+/// Returns the pose at this time by the plan.
 core::Pose planned_pose(const core::Robot& robot, const std::vector<core::Action>& actions, double at);
 
-/// By a measured pose: the latest action, not later than the one planned at this time, whose path is no
-/// further from the pose than the tolerance (metres; the heading likewise, radians). A robot may be late, or
-/// early in the action under way. Nothing if there is none.
+/// Returns the progress by a measured pose: the latest action, not later than the one planned at this time,
+/// whose path is no further from the pose than the tolerance (metres, and radians of the heading). A robot
+/// may be late, or early in the action under way. Returns none if there is no such action.
 std::optional<Progress> measured_progress(const core::Robot& robot, const std::vector<core::Action>& actions,
                                           const core::Pose& pose, double at, double tolerance);
 
-/// As reported. A service of which something is left counts as one that begins: its goal keeps what is left.
+/// Returns the progress that is reported. A service of which something is left counts as one that begins: its
+/// goal keeps what is left.
 Progress reported_progress(const std::vector<core::Action>& actions, const ReportedState& reported);
 
-/// Where the plan has it then.
+/// Returns the pose that the plan has at the reported progress.
 core::Pose pose_of(const std::vector<core::Action>& actions, const ReportedState& reported);
 
 /// Whether two poses are no further from each other than this: metres, and radians of heading.
 bool is_near(const core::Pose& pose, const core::Pose& other, double tolerance);
 
-/// The actions from this time on.
+/// Returns the actions from this time on.
 Remainder remainder(const core::Robot& robot, const std::vector<core::Action>& actions, double at);
 
-/// The remainder of a robot that was measured. It continues a translation straight from the pose to its end,
-/// and a rotation from its heading, at the planned speed. The other actions follow as much later as this ends
-/// later; if it ends earlier, the robot waits. A robot that stands is where its plan has it. `speed`:
-/// measured, metres per second; one with a profile goes on from there, by default from the planned speed.
+/// Returns the remainder of a robot that was measured. It continues a translation straight from the pose to
+/// its end, and a rotation from its heading, at the planned speed. The other actions follow as much later as
+/// this ends later; if it ends earlier, the robot waits. A robot that stands is where its plan has it.
+/// `speed`: measured, metres per second; one with a profile goes on from there, by default from the planned
+/// speed.
 Remainder remainder_of_measured(const core::Robot& robot, const std::vector<core::Action>& actions,
                                 const core::Pose& pose, const Progress& progress, double at,
                                 std::optional<double> speed = {});
 
-/// The remainder of a robot that has reported its progress. It goes on in the same way from the measured
-/// pose, or from where its plan has it then. A wait goes on for what is left of it. In a wait for a goal,
-/// what is left of the service, as planned or reported, begins at the goal's `not_before` at the earliest.
+/// Returns the remainder of a robot that has reported its progress. It goes on in the same way from the
+/// measured pose, or from where its plan has it then. A wait goes on for what is left of it. In a wait for a
+/// goal, what is left of the service, as planned or reported, begins at the goal's `not_before` at the
+/// earliest.
 Remainder remainder_of_reported(const core::Robot& robot, const Execution& execution,
                                 const Progress& progress, double at);
 
-/// The first actions in one line, until the robot has driven so many metres or stops: those that go on from
-/// the first one without a stop. Empty if the first one is no translation.
+/// Returns the first actions in one line, until the robot has driven so many metres or stops: those that go
+/// on from the first one without a stop. Empty if the first one is no translation.
 std::vector<core::Action> driven_until(const std::vector<core::Action>& actions, double metres);
 
 /// Whether a translation goes on with another one, without a stop.
@@ -162,23 +167,24 @@ struct ReleasedRest {
   std::vector<core::Action> after;  // from there on, at its planned times
 };
 
-/// The rest of a robot that has reported how far it is released. It goes there as soon as it can, without the
-/// waits that only give way to others.
+/// Returns the rest of a robot that has reported how far it is released. It goes there as soon as it can,
+/// without the waits that only give way to others.
 ReleasedRest released_rest(const core::Robot& robot, const Execution& execution, const Moment& moment);
 
 /// Appends actions that follow at their planned times; later, with all that follow, if those before end
 /// later; after a wait if they end earlier. Those of an invalid plan may overlap in time.
 void append(std::vector<core::Action>& actions, const std::vector<core::Action>& following);
 
-/// What has been executed at `t`, on the clock of the actions; one under way is cut there.
+/// Returns what has been executed at `t`, on the clock of the actions; an action under way is cut there.
 std::vector<core::Action> executed_until(const std::vector<core::Action>& actions, double t);
 
-/// The actions of a robot that stands from `t` on: one under way is cut there. A robot that needs time to
-/// stop brakes before `t`; one that cannot any more brakes from the first action on, and stands later. A
-/// rotation with a profile that is under way at t = 0 is whole, and a later one is left out.
+/// Returns the actions of a robot that stands from `t` on: one under way is cut there. A robot that needs
+/// time to stop brakes before `t`; one that cannot any more brakes from the first action on, and stands
+/// later. A rotation with a profile that is under way at t = 0 is whole, and a later one is left out.
 std::vector<core::Action> stopped_by(const std::vector<core::Action>& actions, double t);
 
-/// The actions of a robot that begins to brake at `t`. Those that it has not begun then are left out.
+/// Returns the actions of a robot that begins to brake at `t`. Actions that it has not begun then are left
+/// out.
 std::vector<core::Action> braked(const std::vector<core::Action>& actions, double t);
 
 /// Goes on after the first actions, which stopped_by() has left of all of them, to the end of these; later if
@@ -186,18 +192,18 @@ std::vector<core::Action> braked(const std::vector<core::Action>& actions, doubl
 std::vector<core::Action> resumed_after(const std::vector<core::Action>& stopped,
                                         const std::vector<core::Action>& actions);
 
-/// All actions, of which one under way at `t` becomes two: the robot stands at `t`, see stopped_by().
+/// Returns all actions, of which one under way at `t` becomes two: the robot stands at `t`, see stopped_by().
 std::vector<core::Action> split_at(const std::vector<core::Action>& actions, double t);
 
-/// The parts of an action before and after a time within it. A part with a profile begins, or ends, at the
-/// speed that the robot has then.
+/// Return the parts of an action before and after a time within it. A part with a profile begins, or ends, at
+/// the speed that the robot has then.
 core::Action part_until(core::Action action, double t);
 core::Action part_from(core::Action action, double t);
 
-/// The same actions, the last of which come to rest: as fast as they can, if they end at a speed.
+/// Returns the actions, the last of which come to rest: as fast as they can, if they end at a speed.
 std::vector<core::Action> at_rest_in_the_end(std::vector<core::Action> actions);
 
-/// One past the last of the actions from an index on that follow each other at speed.
+/// Returns one past the last of the actions from an index on that follow each other at speed.
 std::size_t end_of_chain(const std::vector<core::Action>& actions, std::size_t first);
 
 /// Drives actions that follow each other at speed, from `t` and a speed on, as fast as their cruise speeds
@@ -206,10 +212,10 @@ std::size_t end_of_chain(const std::vector<core::Action>& actions, std::size_t f
 std::vector<core::Action> driven_from(std::vector<core::Action> chain, double t, double speed);
 
 /// Puts a wait, from a time at which the robot stands to another one, before the rest of the actions, which
-/// it delays, except for the wait under way. A service under way goes on, and is told as that.
+/// it delays, except for the wait under way. A service under way goes on, and stays a service.
 void hold(Remainder& rest, double from, double until);
 
-/// The pose in an action at a time within it.
+/// Returns the pose in an action at a time within it.
 core::Pose pose_at(const core::Action& action, double t);
 
 }  // namespace fleetplan::api

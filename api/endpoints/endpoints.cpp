@@ -24,7 +24,6 @@
 #include "api/vda5050/write_orders.h"
 #include "core/geometry/segment.h"
 #include "core/runtime/executor.h"
-#include "core/travel/arrivals.h"
 #include "core/travel/travel_times.h"
 
 namespace fleetplan::api {

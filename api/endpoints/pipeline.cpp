@@ -11,7 +11,7 @@
 #include "api/json/error.h"
 #include "api/json/faults.h"
 #include "api/request/parse_body.h"
-#include "core/execution/make_dependencies.h"
+#include "core/execution/dependencies.h"
 #include "core/runtime/memory_account.h"
 
 namespace fleetplan::api {

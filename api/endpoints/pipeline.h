@@ -16,7 +16,7 @@
 #include "api/request/options.h"
 #include "api/request/parse_request.h"
 #include "api/response/reply.h"
-#include "core/execution/dependency.h"
+#include "core/execution/dependencies.h"
 #include "core/model/plan.h"
 #include "core/model/robot.h"
 #include "core/runtime/stop_condition.h"

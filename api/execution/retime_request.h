@@ -8,7 +8,7 @@
 
 #include "api/json/json_reader.h"
 #include "api/request/limits.h"
-#include "core/execution/dependency.h"
+#include "core/execution/dependencies.h"
 #include "core/execution/retime.h"
 #include "core/model/plan.h"
 #include "core/model/robot.h"

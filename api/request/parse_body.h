@@ -18,8 +18,7 @@
 #include "api/request/map/parse_map.h"
 #include "api/request/options.h"
 #include "api/request/shared_members.h"
-#include "core/geometry/moving_obstacle.h"
-#include "core/model/zone.h"
+#include "core/model/surroundings.h"
 
 namespace fleetplan::api {
 

@@ -242,7 +242,7 @@ void write_visits(JsonWriter& json, const core::RobotPlan& plan, const VerifiedP
   json.end_array();
 }
 
-/// The finest lattice; none if that is not to be told.
+/// Returns the spacing of the finest lattice, metres; none if the answer does not have it.
 std::optional<double> finest_lattice(const VerifiedPlan& verified) {
   const std::vector<double>& spacings = verified.lattice_spacings;
   const auto finest = std::min_element(spacings.begin(), spacings.end());

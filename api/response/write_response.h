@@ -10,15 +10,14 @@
 
 #include "api/json/json_writer.h"
 #include "api/request/shared_members.h"
-#include "core/execution/dependency.h"
+#include "core/execution/dependencies.h"
 #include "core/execution/simulation/simulation.h"
-#include "core/geometry/moving_obstacle.h"
 #include "core/geometry/position.h"
 #include "core/model/action.h"
 #include "core/model/plan.h"
 #include "core/model/problem.h"
 #include "core/model/robot.h"
-#include "core/model/zone.h"
+#include "core/model/surroundings.h"
 #include "core/runtime/stop_condition.h"
 #include "core/verify/verify.h"
 

@@ -17,7 +17,6 @@
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"
 #include "core/runtime/work.h"
-#include "core/travel/arrivals.h"
 #include "core/travel/travel_times.h"
 
 namespace fleetplan::api {

@@ -10,7 +10,7 @@
 
 #include "api/json/faults.h"
 #include "api/json/json_reader.h"
-#include "core/execution/dependency.h"
+#include "core/execution/dependencies.h"
 #include "core/execution/executed_actions.h"
 #include "core/geometry/segment.h"
 #include "core/model/robot.h"

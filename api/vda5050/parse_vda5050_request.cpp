@@ -171,7 +171,7 @@ RouteStart start_of(const VdaRequest& request, std::size_t robot) {
           .is_known = true};
 }
 
-/// So many nodes at least are released ahead, except where a gate is closed.
+/// The least number of nodes that are released ahead, except where a gate is closed.
 constexpr double kNodesAhead = 2.0;
 
 /// Reports a time ahead that is so short that plans of this length would have too many nodes. Returns whether

@@ -14,7 +14,7 @@
 #include "api/request/limits.h"
 #include "api/vda5050/order_base.h"
 #include "api/vda5050/route.h"
-#include "core/execution/dependency.h"
+#include "core/execution/dependencies.h"
 #include "core/execution/executed_actions.h"
 #include "core/model/plan.h"
 #include "core/model/robot.h"

@@ -25,7 +25,7 @@ struct Endpoints {
   double goal_rounding = 0.0;    // metres
   double inflation = 0.0;        // metres, with the vicinity; a part of the pair radius
   double radius_at_start = 0.0;  // metres; neither inflation nor vicinity included
-  double radius_at_goal = 0.0;   // metres; likewise
+  double radius_at_goal = 0.0;   // metres; neither inflation nor vicinity included
   /// It becomes larger at the start only, so it has not been so near to any bare disk before.
   bool grows_at_start = false;
 };
@@ -64,7 +64,7 @@ class Contacts {
   struct Contact {
     std::size_t other = 0;
     double leaving = kForever;   // metres; the distance to keep while both are at their starts
-    double touching = kForever;  // metres; likewise where at least one of them is at its goal
+    double touching = kForever;  // metres; the distance to keep where at least one of them is at its goal
     /// The bare disks overlap at the starts, by more than contact. They leave one after the other: once they
     /// have been clear of each other, they come no nearer again.
     bool overlapping = false;

@@ -5,9 +5,9 @@
 
 #include "core/commitments/contacts.h"
 #include "core/geometry/motion_tree.h"
-#include "core/geometry/moving_obstacle.h"
 #include "core/geometry/robot_disk.h"
 #include "core/geometry/segment.h"
+#include "core/model/surroundings.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/execution/dependency.h"
+#include "core/execution/dependencies.h"
 #include "core/execution/executed_actions.h"
 #include "core/geometry/speed_profile.h"
 

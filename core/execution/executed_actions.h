@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "core/execution/dependency.h"
+#include "core/execution/dependencies.h"
 #include "core/geometry/segment.h"
 #include "core/model/action.h"
 #include "core/model/plan.h"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/execution/dependency.h"
+#include "core/execution/dependencies.h"
 #include "core/execution/executed_actions.h"
 #include "core/model/robot.h"
 #include "core/runtime/stop_condition.h"

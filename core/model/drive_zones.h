@@ -12,7 +12,7 @@
 #include "core/model/action.h"
 #include "core/model/loads.h"
 #include "core/model/robot.h"
-#include "core/model/zone.h"
+#include "core/model/surroundings.h"
 
 namespace fleetplan::core {
 
@@ -33,7 +33,7 @@ class DriveZones {
   DriveZones(const std::vector<Zone>& zones, std::size_t index, const Robot& robot, const Load& load);
   DriveZones(const std::vector<Zone>& zones, std::size_t index, const Robot& robot)
       : DriveZones(zones, index, robot, first_load(robot)) {}
-  /// The same zones while the robot carries another load; they share their polygons.
+  /// Returns these zones while the robot carries another load; both share their polygons.
   DriveZones with(const Load& load) const;
 
   bool empty() const { return speed_.empty() && one_way_->empty(); }

@@ -34,11 +34,11 @@ struct Load {
   Inertia linear_inertia() const { return {1.0 / linear_acceleration, 1.0 / linear_deceleration}; }
 };
 
-/// With what the request gives it, before it has served any goal.
+/// Returns the load of a robot that has served no goal, as the request gives it.
 Load first_load(const Robot& robot);
-/// After the service at a goal.
+/// Returns the load after the service at a goal.
 Load load_after(const Load& before, const Goal& goal);
-/// By the number of goals that it has served: as many as it has goals, and one more.
+/// Returns the loads by the number of goals served: as many as the robot has goals, and one more.
 std::vector<Load> loads_of(const Robot& robot);
 /// The load of a robot that executes its actions one after the other, contiguous from t = 0 in its start.
 class LoadOnTheWay {
@@ -46,7 +46,7 @@ class LoadOnTheWay {
   /// `robot` outlives this object.
   explicit LoadOnTheWay(const Robot& robot) : loads_(loads_of(robot)), served_(robot) {}
 
-  /// That with which it executes the next action.
+  /// The load with which it executes the next action.
   const Load& load() const { return loads_[served_.count()]; }
   /// The number of goals that it has served.
   std::size_t served() const { return served_.count(); }
@@ -57,13 +57,14 @@ class LoadOnTheWay {
   GoalsOnTheWay served_;
 };
 
-/// That with which it executes one of its actions, which are contiguous from t = 0 in its start.
+/// Returns the load with which a robot executes one of its actions, which are contiguous from t = 0 in its
+/// start.
 Load load_during(const Robot& robot, std::span<const Action> actions, std::size_t index);
-/// Makes it the one that the robot has.
+/// Makes the load the one that the robot has.
 void set_load(Robot& robot, const Load& load);
-/// Whether not all of its loads are the same.
+/// Whether the loads of the robot differ.
 bool changes_load(const Robot& robot);
-/// The greatest linear speed of all of them, metres per second.
+/// Returns the greatest linear speed with any of its loads, metres per second.
 double fastest_speed(const Robot& robot);
 
 /// Completes the profiles of contiguous actions of a robot from t = 0 in its start with its accelerations.
@@ -71,7 +72,7 @@ void set_inertia(std::vector<Action>& actions, const Robot& robot);
 /// Completes the profile of an action that it executes with this load.
 void set_inertia(Action& action, const Robot& robot, const Load& load);
 
-/// By the number of goals that it has served, the radius of the robot in metres.
+/// Returns the radii of the robot by the number of goals served, metres.
 std::vector<double> radii_of(const Robot& robot);
 /// Whether not all of these are the same.
 bool changes_radius(const Robot& robot);

@@ -1,19 +1,268 @@
 #include "core/model/problem.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
 #include <utility>
 
+#include "core/geometry/disk_motion.h"
+#include "core/geometry/motion_tree.h"
 #include "core/geometry/tolerance.h"
 #include "core/map/line_of_sight.h"
 #include "core/map/occupancy_grid.h"
-#include "core/model/committed_faults.h"
+#include "core/model/drive_zones.h"
+#include "core/model/itinerary.h"
 #include "core/model/loads.h"
 
 namespace fleetplan::core {
+
 namespace {
 
+/// The most pairs of robots whose faults are found.
+constexpr std::size_t kMostPairs = 10'000;
 /// However much a start may overlap a wall, this fraction of the disk keeps clear of it.
-constexpr double kClearOfWalls = 1e-3;
+constexpr double kSmallestDisk = 1e-3;
+/// Halvings of a move to find out where it meets a wall: below a nanometre.
+constexpr int kHalvings = 60;
+/// Places of a move where the overlap with a wall is measured, for the message.
+constexpr int kMeasured = 16;
+
+using Disk = MotionTree::Disk;
+
+/// Where a robot certainly is: its committed motion, and a robot that never leaves stays at its end.
+std::vector<Disk> certain_motion(const Robot& robot) {
+  std::vector<Disk> motion;
+  if (!robot.goal || robot.invalid) {
+    for (const TimedSegment& segment : timed_segments(itinerary_of(robot).committed)) {
+      motion.push_back({MovingDisk(segment), robot.radius});
+    }
+  } else if (robot.committed_until() > 0.0) {
+    for (const SizedSegment& segment : certain_segments(robot, itinerary_of(robot))) {
+      motion.push_back({MovingDisk(segment), segment.radius});
+    }
+  }
+  return motion;
+}
+
+/// The first time and the depth of a collision.
+struct Collision {
+  double t = kForever;
+  double gap = kForever;  // metres, negative
+
+  void add(double begin, double least) {
+    t = std::min(t, begin);
+    gap = std::min(gap, least);
+  }
+};
+
+/// The distance that two disks keep, in contact at the nearest.
+double reach_of(const Disk& a, const Disk& b) { return a.radius + b.radius - kContactTolerance; }
+
+/// Returns the first collision of a pair that begins nearer than it should be: the pair may come no nearer
+/// until it is clear, and then keeps the whole distance.
+std::optional<Collision> collision_after_leaving(const std::vector<Disk>& a, const std::vector<Disk>& b) {
+  const double at_first = (a.front().motion.from - b.front().motion.from).norm() - kContactTolerance;
+  const double reach_at_first = reach_of(a.front(), b.front());
+  bool clear = false;
+  std::size_t i = 0;
+  std::size_t j = 0;
+  while (i < a.size() && j < b.size()) {
+    const MovingDisk& mine = a[i].motion;
+    const MovingDisk& theirs = b[j].motion;
+    const double reach = reach_of(a[i], b[j]);
+    clear = clear || reach > reach_at_first;  // one of them has grown
+    const double kept = clear ? reach : at_first;
+    if (const auto hit = overlap(mine, theirs, kept))
+      return Collision{hit->begin, least_distance(mine, theirs) - a[i].radius - b[j].radius};
+    const double end = std::min(mine.t_end, theirs.t_end);
+    const auto near = overlap(mine, theirs, reach);
+    clear = clear || !near || near->end < end;  // the distance is convex within a segment
+    const bool mine_is_over =
+        mine.t_end < theirs.t_end || (mine.t_end == theirs.t_end && (i + 1 < a.size() || j + 1 == b.size()));
+    (mine_is_over ? i : j) += 1;
+  }
+  return std::nullopt;
+}
+
+class CommittedFaults {
+ public:
+  CommittedFaults(const ZoneMaps& maps, const std::vector<Robot>& robots, const ProblemConditions& conditions,
+                  const StopCondition& stop)
+      : maps_(maps), robots_(robots), conditions_(conditions), stop_(stop) {}
+
+  std::vector<ProblemFault> run() {
+    for (std::size_t i = 0; i < robots_.size() && !stop_.met(); ++i) {
+      if (!is_committed(i)) continue;
+      check_walls(i);
+      if (!conditions_.zones.empty()) check_zones(i);
+    }
+    find_pairs();
+    for (const auto& [pair, collision] : pairs_) add_pair(pair.first, pair.second, collision);
+    std::stable_sort(faults_.begin(), faults_.end(),
+                     [](const ProblemFault& a, const ProblemFault& b) { return a.robot < b.robot; });
+    return std::move(faults_);
+  }
+
+ private:
+  bool is_committed(std::size_t robot) const {
+    return !robots_[robot].committed.empty() && !robots_[robot].invalid;
+  }
+
+  void check_walls(std::size_t index) {
+    const Robot& robot = robots_[index];
+    const LineOfSight& sight = maps_.while_leaving(index)->sight();
+    double full = robot.radius - kContactTolerance + kSearchSlack;
+    const double least = std::max(full - conditions_.wall_overlap, kSmallestDisk * full);
+    if (!sight.disk_fits(robot.start.position, least)) return;  // its start is at fault
+    double radius = sight.fitting_radius(robot.start.position, least, full);
+    const std::vector<RadiusStep> steps = radius_steps(robot, itinerary_of(robot).visited);
+    auto step = steps.begin();
+    double own = robot.radius;
+    for (const Action& action : robot.committed) {
+      if (action.type != Action::Type::translate) continue;
+      if (stop_.met()) return;
+      for (; step != steps.end() && step->t <= action.t_start; ++step) {
+        own = step->radius;
+        full = own - kContactTolerance + kSearchSlack;
+        radius = full;  // the goal where it changes fits
+      }
+      if (!sight.may_sweep(action.from.position, action.to.position, radius)) {
+        return add_wall(index, action, own, radius);
+      }
+      if (sight.disk_fits(action.to.position, full)) radius = full;
+    }
+  }
+
+  /// Adds a collision of a translation with a wall. `own` is the robot's radius, `radius` the one that it has
+  /// to keep, metres.
+  void add_wall(std::size_t index, const Action& action, double own, double radius) {
+    const LineOfSight& sight = maps_.while_leaving(index)->sight();
+    const Position way = action.to.position - action.from.position;
+    const auto at = [&](double fraction) { return Position(action.from.position + fraction * way); };
+    double free = 0.0;
+    double blocked = 1.0;
+    for (int k = 0; k < kHalvings; ++k) {
+      const double middle = 0.5 * (free + blocked);
+      (sight.may_sweep(action.from.position, at(middle), radius) ? free : blocked) = middle;
+    }
+    const bool meets_wall = !maps_.map()->sight().may_sweep(action.from.position, at(blocked), radius);
+    const auto zone =
+        meets_wall ? std::nullopt : nearest_blocked_zone(conditions_.zones, index, at(blocked), kForever);
+    const Zone* const in_zone = zone ? &conditions_.zones[zone->index] : nullptr;
+    double gap = 0.0;
+    for (int k = 0; k <= kMeasured && !stop_.met(); ++k) {
+      const Position place = at(blocked + (1.0 - blocked) * k / kMeasured);
+      const double distance = in_zone != nullptr ? distance_to_zone(*in_zone, place)
+                                                 : obstacle_distance(maps_.map()->grid(), place, own);
+      gap = std::min(gap, distance - own);
+    }
+    const double t = action.t_start + blocked * (action.t_end - action.t_start);
+    ProblemFault fault{ProblemFault::Kind::committed_collision, index, index, gap, 0, t};
+    if (zone) fault.zone = zone->index;
+    faults_.push_back(fault);
+  }
+
+  /// Adds the first action that breaks the rule of a zone. An action that is slower than allowed is no fault.
+  void check_zones(std::size_t index) {
+    const Robot& robot = robots_[index];
+    if (robot.committed.empty()) return;
+    LoadOnTheWay on_the_way(robot);
+    DriveZones zones(conditions_.zones, index, robot, on_the_way.load());
+    if (zones.empty() && !changes_load(robot)) return;
+    for (const Action& action : robot.committed) {
+      if (stop_.met()) return;
+      const auto zone = zones.broken_by(action);
+      const Load before = on_the_way.load();
+      on_the_way.execute(action);
+      if (on_the_way.load() != before) zones = zones.with(on_the_way.load());
+      if (!zone) continue;
+      ProblemFault fault{ProblemFault::Kind::committed_in_zone, index, index, 0.0, 0, action.t_start};
+      fault.zone = zone;
+      faults_.push_back(fault);
+      return;
+    }
+  }
+
+  void find_pairs() {
+    std::vector<Disk> disks;
+    std::vector<std::uint32_t> owners;
+    double largest = 0.0;
+    for (std::size_t i = 0; i < robots_.size(); ++i) {
+      largest = std::max(largest, largest_radius(robots_[i]));
+      motions_.push_back(certain_motion(robots_[i]));
+      for (const Disk& disk : motions_.back()) {
+        disks.push_back(disk);
+        owners.push_back(static_cast<std::uint32_t>(i));
+      }
+    }
+    const OccupancyGrid& grid = maps_.map()->grid();
+    const MotionTree tree(std::move(disks), {grid.width(), grid.height(), largest}, stop_);
+    if (!tree.finished()) return;
+    for (std::size_t i = 0; i < robots_.size(); ++i) {
+      if (!is_committed(i)) continue;
+      for (const Disk& mine : motions_[i]) {
+        if (stop_.met() || pairs_.size() >= kMostPairs) return;
+        tree.visit(mine.motion, mine.radius, 0.0, [&](std::size_t k) {
+          compare(i, mine, owners[k], tree[k]);
+          return true;
+        });
+      }
+    }
+  }
+
+  /// Compares the disks of two robots. Each pair of robots with commitments is compared once.
+  void compare(std::size_t robot, const Disk& mine, std::size_t other, const Disk& theirs) {
+    if (other == robot || (other > robot && is_committed(other))) return;
+    const auto hit = overlap(mine.motion, theirs.motion, reach_of(mine, theirs));
+    if (!hit) return;
+    const double at_start = (robots_[robot].start.position - robots_[other].start.position).norm();
+    const double kept = robots_[robot].radius + robots_[other].radius - kContactTolerance;
+    if (at_start < kept) return compare_leaving(robot, other, at_start, kept);
+    const double gap = least_distance(mine.motion, theirs.motion) - mine.radius - theirs.radius;
+    pairs_[{robot, other}].add(hit->begin, gap);
+  }
+
+  void compare_leaving(std::size_t robot, std::size_t other, double at_start, double reach) {
+    if (at_start < reach - conditions_.pair_overlap) return;  // the starts are at fault
+    if (!leaving_.insert({robot, other}).second) return;
+    if (const auto found = collision_after_leaving(motions_[robot], motions_[other])) {
+      pairs_[{robot, other}] = *found;
+    }
+  }
+
+  void add_pair(std::size_t robot, std::size_t other, const Collision& collision) {
+    faults_.push_back({ProblemFault::Kind::committed_collision, robot, other, collision.gap, 0, collision.t});
+  }
+
+  using Pair = std::pair<std::size_t, std::size_t>;  // a robot with a commitment, and another one
+
+  const ZoneMaps& maps_;
+  const std::vector<Robot>& robots_;
+  const ProblemConditions& conditions_;
+  const StopCondition& stop_;
+  std::vector<std::vector<Disk>> motions_;  // by robot
+  std::map<Pair, Collision> pairs_;
+  std::set<Pair> leaving_;  // pairs that have been compared
+  std::vector<ProblemFault> faults_;
+};
+
+/// Returns by robot the faults of the kinds committed_collision and committed_in_zone: bare disks that
+/// overlap by more than kContactTolerance. Two committed motions are compared while both last, to their own
+/// ends. A robot without a goal, or an invalid one, stands at its end for ever. A robot that has a goal but
+/// no commitment may leave, so it is in the way of no other. Starts that overlap by no more than the
+/// conditions allow may part: until they are clear, such a pair comes no nearer, and neither does such a
+/// robot to a wall or a blocked zone. Starts that overlap by more are faults of another kind, and are left
+/// out. The list is incomplete if the stop condition is met.
+std::vector<ProblemFault> committed_faults(const ZoneMaps& maps, const std::vector<Robot>& robots,
+                                           const ProblemConditions& conditions, const StopCondition& stop) {
+  const bool any = std::any_of(robots.begin(), robots.end(),
+                               [](const Robot& robot) { return !robot.committed.empty() && !robot.invalid; });
+  if (!any) return {};
+  return CommittedFaults(maps, robots, conditions, stop).run();
+}
+
 /// Goals of a robot between two checks of the stop condition.
 constexpr std::size_t kGoalsBetweenStops = 16;
 
@@ -83,7 +332,7 @@ class FaultSearch {
     };
     const double overlap = conditions_.wall_overlap;
     const double radius = clear(robot.radius);
-    check(robot.start.position, overlap > 0.0 ? std::max(radius - overlap, kClearOfWalls * radius) : radius,
+    check(robot.start.position, overlap > 0.0 ? std::max(radius - overlap, kSmallestDisk * radius) : radius,
           {ProblemFault::Kind::start_in_obstacle, index, 0, 0.0, 0, 0.0, robot.radius});
     double arrives = robot.radius;
     for (std::size_t k = 0; k < robot.goal_count(); ++k) {

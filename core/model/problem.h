@@ -7,13 +7,11 @@
 #include <variant>
 #include <vector>
 
-#include "core/geometry/moving_obstacle.h"
 #include "core/map/static_map.h"
 #include "core/model/plan_options.h"
 #include "core/model/robot.h"
+#include "core/model/surroundings.h"
 #include "core/model/ways_out.h"
-#include "core/model/zone.h"
-#include "core/model/zone_maps.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
@@ -63,7 +61,7 @@ struct ProblemConditions {
   bool list_faults_of_every_robot = false;
 };
 
-/// Those that follow from options: how much starts may overlap, and the inflation.
+/// Returns the conditions that follow from options: how much starts may overlap, and the inflation.
 ProblemConditions conditions_of(const PlanOptions& options);
 
 /// A map and robots that can be planned for. A problem that exists is valid: radii and speeds are positive

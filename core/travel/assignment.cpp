@@ -118,7 +118,7 @@ class Assignment {
   std::vector<Cost> of_row_;         // potentials
   std::vector<Cost> of_column_;      // potentials
   std::vector<std::size_t> row_of_;  // by column
-  // Of the search for one row, by column:
+  // The search for one row, by column:
   std::vector<std::optional<Cost>> distance_;
   std::vector<std::size_t> before_;  // the column before it on the path, kNone for the row that was added
   std::vector<bool> is_done_;

@@ -11,8 +11,8 @@
 #include "core/geometry/tolerance.h"
 #include "core/model/itinerary.h"
 #include "core/model/loads.h"
-#include "core/travel/arrivals.h"
 #include "core/travel/assignment.h"
+#include "core/travel/travel_times.h"
 
 namespace fleetplan::core {
 namespace {
@@ -229,7 +229,8 @@ class Chooser {
     }
   }
 
-  /// Of a position, because of the others: kForever at a last goal, kUseless where one is parked.
+  /// Returns the cost of a position because of other robots: kForever at a last goal, kUseless where a robot
+  /// is parked.
   double cost_of_others(const OpenPlace& place, const Position& position) {
     const double radius = last_radius(robot_of(place));
     double cost = 0.0;
@@ -321,7 +322,7 @@ class Chooser {
   const TimesOf& times_of_;
   const StopCondition& stop_;
   std::map<Key, double> free_from_;  // by position, seconds: after those that are served there before
-  // Of robots that stay:
+  // The members below are about robots that stay.
   std::vector<OpenPlace> last_;
   std::vector<Other> others_;
   std::vector<Position> positions_;

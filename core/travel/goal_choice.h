@@ -14,7 +14,7 @@
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"
 #include "core/model/robot.h"
-#include "core/model/zone.h"
+#include "core/model/surroundings.h"
 #include "core/runtime/executor.h"
 #include "core/runtime/stop_condition.h"
 

@@ -10,11 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "core/geometry/moving_obstacle.h"
 #include "core/map/occupancy_grid.h"
 #include "core/model/plan.h"
 #include "core/model/robot.h"
-#include "core/model/zone.h"
+#include "core/model/surroundings.h"
 
 namespace fleetplan::core {
 

@@ -8,10 +8,10 @@
 #include <limits>
 #include <vector>
 
-#include "core/geometry/moving_obstacle.h"
 #include "core/model/loads.h"
 #include "core/model/plan.h"
 #include "core/model/robot.h"
+#include "core/model/surroundings.h"
 #include "core/verify/check_rules.h"
 
 namespace fleetplan::core {
@@ -65,7 +65,7 @@ class CarriedLoads {
 /// before 0), the overlapping part is omitted; an action that ends before it begins takes no time. Every
 /// number of the plan (and of the committed actions) is finite.
 std::vector<Leg> execute(const Robot& robot, const RobotPlan* plan, const CarriedLoads& loads);
-/// With times that may be rounded by up to kMostTolerance.
+/// Executes with the loads of a robot whose times may be rounded by up to kMostTolerance.
 std::vector<Leg> execute(const Robot& robot, const RobotPlan* plan);
 
 /// Returns the legs of an obstacle from when it appears until it vanishes, or to infinity. An obstacle that

@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/model/zone_maps.h"
+#include "core/model/ways_out.h"
 #include "core/planner.h"
 #include "tests/support/expect_safe.h"
 #include "tests/support/moments.h"

@@ -2,13 +2,14 @@
 // collide by the checker's own formulas, except in pairs that are listed as tight, and all arrive. The same
 // executions without dependencies collide.
 
+#include "core/execution/dependencies.h"
+
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <set>
 #include <utility>
 
-#include "core/execution/make_dependencies.h"
 #include "core/planner.h"
 #include "core/verify/verify.h"
 #include "tests/support/moving_fleet.h"

@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "core/execution/make_dependencies.h"
+#include "core/execution/dependencies.h"
 #include "core/planner.h"
 #include "tests/core/execution/simulation/study.h"
 #include "tests/support/expect_bounds.h"

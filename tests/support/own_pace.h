@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/execution/dependency.h"
+#include "core/execution/dependencies.h"
 #include "core/execution/executed_actions.h"
 #include "core/geometry/angle.h"
 #include "core/model/plan.h"

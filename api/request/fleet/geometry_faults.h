@@ -15,7 +15,7 @@
 
 namespace fleetplan::api {
 
-/// A fault of poses or committed motion as it is told to the client.
+/// A fault of poses or committed motion as the client sees it.
 struct GeometryFault {
   JsonReader place;
   const char* code;

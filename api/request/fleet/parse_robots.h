@@ -27,7 +27,7 @@ struct ParsedGoals {
   /// each is visited.
   bool lists_visits = false;
   std::vector<GoalTexts> texts;  // by goal; shorter if the last ones have none
-  /// Those that are served at one of several poses, ascending. They have the first pose in `goals`.
+  /// The goals that are served at one of several poses, ascending. They have the first pose in `goals`.
   std::vector<core::OpenGoal> open;
 };
 

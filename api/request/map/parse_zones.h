@@ -12,7 +12,7 @@
 #include "api/request/shared_members.h"
 #include "core/geometry/position.h"
 #include "core/map/occupancy_grid.h"
-#include "core/model/zone.h"
+#include "core/model/surroundings.h"
 
 namespace fleetplan::api {
 

@@ -425,7 +425,7 @@ class DependentExecution {
     }
   }
 
-  /// The same for a robot that has driven until `t`.
+  /// Tells others which of the places that they wait for a robot has reached that has driven until `t`.
   void tell_drive(std::size_t index, double t) {
     Robot& robot = robots_[index];
     const Drive& drive = robot.driven->drive;

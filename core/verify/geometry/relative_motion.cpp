@@ -304,7 +304,7 @@ ShiftedMoment least_shifted_distance(const Leg& a, const TimeSpan& first, const 
     const double mine = sag(a, part.first);
     const double its = sag(b, part.second);
     const double least = chords.distance - mine - its;
-    // Of a distance that is too short, two digits are enough.
+    // Two digits are enough for a distance that is too short.
     const double digits = nearest.distance < enough && std::isfinite(enough) ? 0.01 * enough : kSamePosition;
     if (least >= enough || least >= nearest.distance - digits) continue;
     const double there = (position_at(b, chords.t_second) - position_at(a, chords.t_first)).norm();

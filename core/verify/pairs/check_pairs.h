@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/geometry/moving_obstacle.h"
+#include "core/model/surroundings.h"
 #include "core/runtime/stop_condition.h"
 #include "core/verify/check_rules.h"
 #include "core/verify/execution.h"

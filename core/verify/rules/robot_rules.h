@@ -1,8 +1,8 @@
 #pragma once
 
 // The rules for one robot: how it moves from action to action, within the speeds, after waits, and as
-// committed (motion_rules.cpp); where it begins, calls and ends (visit_rules.cpp); and where its disk must not
-// be, which are obstacles, and zones against their rules (place_rules.cpp).
+// committed (motion_rules.cpp); where it begins, calls and ends (visit_rules.cpp); and where its disk must
+// not be, which are obstacles, and zones against their rules (place_rules.cpp).
 
 #include <cstddef>
 #include <functional>
@@ -13,7 +13,7 @@
 #include "core/model/action.h"
 #include "core/model/plan.h"
 #include "core/model/robot.h"
-#include "core/model/zone.h"
+#include "core/model/surroundings.h"
 #include "core/runtime/stop_condition.h"
 #include "core/verify/check_rules.h"
 #include "core/verify/execution.h"

@@ -1,5 +1,3 @@
-#include "core/execution/make_dependencies.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "core/execution/dependencies.h"
 #include "tests/support/plan_builder.h"
 #include "tests/support/step_limit.h"
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "core/execution/make_dependencies.h"
+#include "core/execution/dependencies.h"
 #include "tests/support/plan_builder.h"
 
 namespace fleetplan::core {

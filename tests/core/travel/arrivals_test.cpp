@@ -1,5 +1,3 @@
-#include "core/travel/arrivals.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +6,7 @@
 
 #include "core/geometry/segment.h"
 #include "core/runtime/executor.h"
+#include "core/travel/travel_times.h"
 #include "tests/core/support/planning.h"
 
 namespace fleetplan::core {

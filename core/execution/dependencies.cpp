@@ -1,4 +1,4 @@
-#include "core/execution/make_dependencies.h"
+#include "core/execution/dependencies.h"
 
 #include <algorithm>
 #include <tuple>
@@ -8,6 +8,7 @@
 #include "core/execution/pair_dependencies.h"
 
 namespace fleetplan::core {
+
 namespace {
 
 /// A dependency by whole progress: robot `waits` may not pass `gate` until robot `leads` has reached `until`.
