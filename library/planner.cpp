@@ -2,6 +2,7 @@
 
 #include <fleetplan/fleetplan.h>
 #include <fleetplan/planner.h>
+#include <fleetplan/verify.h>
 
 #include <algorithm>
 #include <chrono>
@@ -71,6 +72,12 @@ Plan nothing_planned(std::size_t robots) {
   return plan;
 }
 
+std::vector<core::RobotPlan> core_plans(std::span<const RobotPlan> plans, const library::Frame& frame) {
+  std::vector<core::RobotPlan> made;
+  for (const RobotPlan& plan : plans) made.push_back(library::plan_of(plan, frame));
+  return made;
+}
+
 }  // namespace
 
 Plan plan(const Problem& problem, const Options& options, const Control& control) {
@@ -106,6 +113,33 @@ const RobotPlan* Plan::plan_of(std::size_t robot) const {
   const auto found = std::lower_bound(plans.begin(), plans.end(), robot,
                                       [](const RobotPlan& plan, std::size_t r) { return plan.robot < r; });
   return found != plans.end() && found->robot == robot ? &*found : nullptr;
+}
+
+Verification verify(const Problem& problem, std::span<const RobotPlan> plans, const Rules& rules) {
+  library::ReadFleet fleet = library::read_fleet(problem);
+  if (!fleet.faults.empty()) throw InvalidProblem(std::move(fleet.faults));
+  core::CheckRules core_rules;
+  core_rules.tolerances.assign(problem.robots.size(), core::Tolerance::of_all(rules.tolerance));
+  core_rules.inflation = rules.inflation;
+  core_rules.interval_margin = rules.interval_margin;
+  core_rules.wait_before_move = rules.wait_before_move;
+  core_rules.start_overlap = rules.start_overlap;
+  core_rules.horizon = rules.horizon;
+  core_rules.exempt = library::unavoidable_of(rules.unavoidable);
+  const core::OccupancyGrid grid = library::grid_of(problem.map);
+  auto report = core::verify({grid, fleet.robots, fleet.obstacles, &fleet.zones},
+                             core_plans(plans, library::Frame(problem.map)), core_rules,
+                             core::StopCondition(end_of(rules.time_budget, Clock::now()), rules.stop));
+  return report ? library::verification_of(std::move(*report)) : Verification();
+}
+
+Verification verify(const Problem& problem, const Plan& plan, const Options& options) {
+  Rules rules;
+  rules.interval_margin = options.interval_margin;
+  rules.start_overlap = options.start_overlap;
+  rules.horizon = options.horizon;
+  rules.unavoidable = plan.unavoidable;
+  return verify(problem, std::span(plan.plans), rules);
 }
 
 const char* version() { return FLEETPLAN_VERSION; }

@@ -14,7 +14,6 @@
 
 #include "server/command/commands.h"
 #include "server/http_server.h"
-#include "server/ops/health_probe.h"
 #include "server/ops/process.h"
 #include "server/ops/settings.h"
 #include "server/service/service.h"

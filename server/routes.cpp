@@ -5,11 +5,11 @@
 #include <string_view>
 #include <utility>
 
-#include "api/json/error.h"
+#include "api/json/errors.h"
 #include "api/json/json_writer.h"
 #include "server/http/answer/direct_answers.h"
 #include "server/http/exchange.h"
-#include "server/http/request/negotiation.h"
+#include "server/http/request/content.h"
 #include "server/http/route_table.h"
 #include "server/http/text.h"
 #include "server/ops/metrics.h"

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "api/endpoints/plan_events.h"
+#include "api/endpoints/request_context.h"
 #include "server/http/route_table.h"
 #include "server/http/static_files.h"
 #include "server/ops/settings.h"

@@ -44,11 +44,11 @@ struct Piece {
   bool moves() const { return velocity.squaredNorm() > 0.0; }
 };
 
-/// The commitment, and then the stay at its end, which has no end.
+/// Returns the pieces of the commitment, and then the stay at its end, which has no end.
 std::vector<Piece> committed_pieces(const core::Robot& robot);
 
-/// When two pieces begin to be nearer than a distance, in the time of both; at the beginning of that time if
-/// they are nearer then and come nearer.
+/// Returns when two pieces begin to be nearer than a distance, in the time of both; at the beginning of that
+/// time if they are nearer then and come nearer.
 std::optional<double> first_overlap(const Piece& a, const Piece& b, double distance);
 
 /// Calls visit(piece, other) for the pieces of two robots whose times overlap, in the order of time, until it
@@ -70,10 +70,10 @@ struct Collision {
   double t = 0.0;  // seconds: 0 if they overlap already, otherwise when they begin to
 };
 
-/// The pairs of robots that collide if all execute nothing but their commitments, and then stand: those that
-/// overlap already, and those of which one cannot stop in time. `braking`: by robot, see braking_of; a robot
-/// executes that, too, if its commitment ends before. Of many pairs, only the first are returned. Ends early
-/// when the stop is met.
+/// Returns the pairs of robots that collide if all execute nothing but their commitments, and then stand:
+/// pairs that overlap already, and pairs of which one robot cannot stop in time. `braking`: by robot, see
+/// braking_of; a robot executes that, too, if its commitment ends before. Of many pairs, only the first are
+/// returned. Ends early when the stop is met.
 std::vector<Collision> unavoidable_collisions(const std::vector<core::Robot>& robots,
                                               const std::vector<std::vector<core::Action>>& braking,
                                               core::Work& stop);

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "api/endpoints/endpoints.h"
+#include "api/json/json_reader.h"
 #include "api/json/json_writer.h"
-#include "api/json/read_json.h"
 #include "api/request/limits.h"
 #include "api/request/map/parse_map.h"
 

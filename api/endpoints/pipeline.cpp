@@ -8,8 +8,7 @@
 #include <utility>
 
 #include "api/endpoints/request_context.h"
-#include "api/json/error.h"
-#include "api/json/faults.h"
+#include "api/json/errors.h"
 #include "api/request/parse_body.h"
 #include "core/execution/dependencies.h"
 #include "core/runtime/memory_account.h"

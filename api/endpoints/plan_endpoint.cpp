@@ -10,10 +10,8 @@
 
 #include "api/endpoints/endpoints.h"
 #include "api/endpoints/pipeline.h"
-#include "api/endpoints/plan_events.h"
 #include "api/endpoints/request_context.h"
-#include "api/json/error.h"
-#include "api/json/faults.h"
+#include "api/json/errors.h"
 #include "api/request/parse_request.h"
 #include "api/response/reply.h"
 #include "api/response/write_response.h"

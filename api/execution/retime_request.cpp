@@ -9,7 +9,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include "api/json/faults.h"
+#include "api/json/errors.h"
 #include "api/json/json_writer.h"
 #include "api/request/fleet/parse_actions.h"
 #include "api/request/fleet/parse_plans.h"

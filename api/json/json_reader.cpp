@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "api/json/faults.h"
+#include "api/json/errors.h"
 
 namespace fleetplan::api {
 

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "api/json/read_json.h"
+#include "api/json/json_reader.h"
 
 namespace fleetplan::api {
 

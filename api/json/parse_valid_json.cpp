@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "api/json/read_json.h"
+#include "api/json/json_reader.h"
 
 namespace fleetplan::api {
 

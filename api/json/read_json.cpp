@@ -1,5 +1,3 @@
-#include "api/json/read_json.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -14,7 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "api/json/faults.h"
+#include "api/json/errors.h"
+#include "api/json/json_reader.h"
 #include "core/runtime/stoppable_sort.h"
 
 namespace fleetplan::api {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "api/endpoints/endpoints.h"
-#include "api/json/error.h"
+#include "api/json/errors.h"
 #include "api/request/options.h"
 #include "api/response/reply.h"
 

@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "api/json/faults.h"
+#include "api/json/errors.h"
 #include "api/request/limits.h"
 
 namespace fleetplan::api {

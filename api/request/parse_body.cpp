@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "api/json/faults.h"
+#include "api/json/errors.h"
 #include "api/json/json_reader.h"
 #include "api/request/fleet/parse_robots.h"
 #include "api/request/limits.h"

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "api/json/error.h"
+#include "api/json/errors.h"
 #include "api/json/json_reader.h"
 #include "api/request/fleet/parse_robots.h"
 #include "api/request/limits.h"

@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "api/json/faults.h"
+#include "api/json/errors.h"
 #include "api/request/fleet/geometry_faults.h"
 #include "api/request/fleet/parse_plans.h"
 #include "api/request/limits.h"

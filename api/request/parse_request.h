@@ -10,9 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "api/json/error.h"
+#include "api/json/errors.h"
 #include "api/json/json_reader.h"
-#include "api/json/result.h"
 #include "api/request/limits.h"
 #include "api/request/map/parse_map.h"
 #include "api/request/options.h"

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "api/json/faults.h"
+#include "api/json/errors.h"
 #include "api/json/json_reader.h"
 #include "api/request/fleet/parse_actions.h"
 #include "api/request/fleet/parse_plans.h"

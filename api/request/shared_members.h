@@ -10,7 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "api/json/faults.h"
+#include "api/json/errors.h"
 #include "api/json/json_reader.h"
 #include "core/model/action.h"
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "api/json/error.h"
+#include "api/json/errors.h"
 #include "core/model/plan.h"
 
 namespace fleetplan::api {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string_view>
 
-#include "api/json/error.h"
+#include "api/json/errors.h"
 #include "api/json/json_writer.h"
 #include "api/response/reply.h"
 #include "core/geometry/angle.h"

@@ -9,7 +9,7 @@
 #include <utility>
 #include <variant>
 
-#include "api/json/faults.h"
+#include "api/json/errors.h"
 #include "api/json/json_writer.h"
 #include "api/request/fleet/geometry_faults.h"
 #include "api/request/fleet/parse_robots.h"

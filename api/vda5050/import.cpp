@@ -10,10 +10,10 @@
 #include <unordered_set>
 #include <utility>
 
-#include "api/json/faults.h"
+#include "api/json/errors.h"
 #include "api/json/json_writer.h"
 #include "api/request/limits.h"
-#include "api/vda5050/order_base.h"
+#include "api/vda5050/parse_vda5050_request.h"
 #include "api/vda5050/write_orders.h"
 #include "core/geometry/angle.h"
 

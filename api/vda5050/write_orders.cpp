@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "api/json/json_writer.h"
-#include "api/vda5050/order_base.h"
 #include "api/vda5050/parse_vda5050_request.h"
 #include "api/vda5050/route.h"
 #include "core/geometry/angle.h"

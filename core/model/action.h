@@ -26,7 +26,7 @@ struct Action {
   std::optional<SpeedProfile> profile = {};
 };
 
-/// What an action covers: metres of a translation, radians of a rotation.
+/// Returns what an action covers: metres of a translation, radians of a rotation.
 double amount_of(const Action& action);
 
 /// The share of its length (or angle), in [0, 1], that an action covers in a share of its duration.

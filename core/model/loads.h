@@ -97,7 +97,8 @@ std::vector<SizedSegment> committed_segments(const Robot& robot, const Itinerary
 /// certainly has it, however soon it leaves.
 std::optional<SizedSegment> growth_at_end(const Robot& robot, const Itinerary& itinerary);
 
-/// Where a robot with a goal certainly is: its committed motion, and then the instant of growth_at_end.
+/// Returns where a robot with a goal certainly is: its committed motion, and then the instant of
+/// growth_at_end.
 std::vector<SizedSegment> certain_segments(const Robot& robot, const Itinerary& itinerary);
 
 /// Contiguous segments from t = 0 with the radius of the robot; a rest is divided where it changes.

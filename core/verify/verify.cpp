@@ -1,17 +1,268 @@
 #include "core/verify/verify.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <set>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "core/geometry/angle.h"
 #include "core/geometry/tolerance.h"
 #include "core/verify/execution.h"
-#include "core/verify/pairs/check_pairs.h"
+#include "core/verify/geometry/relative_motion.h"
+#include "core/verify/pairs/fleet_clearance.h"
+#include "core/verify/pairs/sweeps.h"
 #include "core/verify/rules/robot_rules.h"
 
 namespace fleetplan::core {
+
 namespace {
+
+/// The collisions of robots with each other and with moving obstacles.
+struct PairReport {
+  ViolationList violations;
+  std::optional<double> min_clearance;  // see VerifyReport
+};
+
+// The functions below judge robots that begin nearer to each other than they have to keep.
+
+/// Returns the legs until the commitment ends; from then on the robot stays.
+std::vector<Leg> committed_legs(const std::vector<Leg>& legs, double until) {
+  std::vector<Leg> kept;
+  for (const Leg& leg : legs) {
+    if (leg.t_begin >= until && !kept.empty()) break;
+    kept.push_back(leg);
+  }
+  if (kept.back().t_end < until) return kept;  // the robot has another radius from then on
+  Leg& last = kept.back();
+  const Position end = position_at(last, until);
+  last = part_of(last, last.t_begin, until);
+  kept.push_back({until, std::numeric_limits<double>::infinity(), end, end});
+  return kept;
+}
+
+/// Returns the least distance of the committed motions, metres. Both bodies begin before `until`, or at that
+/// time if a robot grows where its commitment ends.
+double least_of_commitments(const ExecutedFleet& fleet, const Overlap& overlap, double until) {
+  const auto& a = fleet.legs[overlap.first];
+  const auto& b = fleet.legs[overlap.second];
+  const double begin = std::max(a.front().t_begin, b.front().t_begin);
+  if (until <= begin) {
+    const Position apart =
+        position_at(*first_leg_until(a, begin), begin) - position_at(*first_leg_until(b, begin), begin);
+    return apart.norm();
+  }
+  return least_distance(committed_legs(a, fleet.departures[overlap.first].committed_until),
+                        committed_legs(b, fleet.departures[overlap.second].committed_until), {0.0, until});
+}
+
+/// Returns the time, in seconds, from which two robots have to keep their whole distance, if they begin with
+/// this overlap and may leave it; none otherwise.
+std::optional<double> leaves_overlap(const ExecutedFleet& fleet, const Overlap& overlap,
+                                     const CheckRules& rules) {
+  const Departure& a = fleet.departures[overlap.first];
+  const Departure& b = fleet.departures[overlap.second];
+  const double bare = fleet.radii[overlap.first] + fleet.radii[overlap.second];
+  const double kept = fleet.kept_distance(overlap.first, overlap.second, rules.inflation);
+  if (kept <= bare && rules.start_overlap <= 0.0) return std::nullopt;
+  // A robot that has got another radius since its plan began may not be so near.
+  if (fleet.begin_of(overlap.first) > a.committed_until + kSameTime ||
+      fleet.begin_of(overlap.second) > b.committed_until + kSameTime)
+    return std::nullopt;
+  const double tolerance = std::max(fleet.tolerances[overlap.first], fleet.tolerances[overlap.second]);
+  const double moved = std::min(a.first_move_ends, b.first_move_ends);
+  const double until = std::max(overlap.t_end, moved);
+  if (overlap.distance < bare - tolerance) {
+    const double inflated = bare + 2.0 * rules.inflation;
+    const double at_start =
+        (fleet.legs[overlap.first].front().from - fleet.legs[overlap.second].front().from).norm();
+    const bool allowed = overlap.t_begin <= 0.0 && inflated - at_start <= rules.start_overlap + tolerance;
+    return allowed && overlap.distance >= at_start - tolerance ? std::optional(until) : std::nullopt;
+  }
+  const double certain = std::max(a.committed_until, b.committed_until);
+  const bool begins_so = overlap.t_begin <= certain + kSameTime;
+  const bool first_moves = overlap.t_begin <= moved && overlap.t_end <= moved;
+  if (!begins_so && !first_moves) return std::nullopt;
+  const double least = least_of_commitments(fleet, overlap, certain);
+  return overlap.distance >= least - tolerance ? std::optional(until) : std::nullopt;
+}
+
+/// The overlaps that are listed in addition for each robot, so that allowed ones, with which robots start, do
+/// not hide others.
+constexpr std::size_t kNearStartsPerRobot = 64;
+
+std::string overlap_text(const Overlap& overlap, double contact, const std::string& what) {
+  return what + metres(contact - overlap.distance) + " from t = " + seconds(overlap.t_begin) +
+         (std::isfinite(overlap.t_end) ? " to " + seconds(overlap.t_end) : " on, for ever");
+}
+
+/// Compares robots with robots, also at slightly different times, and with moving obstacles.
+class PairCheck {
+ public:
+  PairCheck(const ExecutedFleet& fleet, const std::vector<MovingObstacle>& obstacles, const CheckRules& rules,
+            const StopCondition& stop)
+      : fleet_(fleet),
+        rules_(rules),
+        stop_(stop),
+        obstacles_(legs_of_all(obstacles)),
+        radii_(radii(obstacles)),
+        exemptions_(rules.exempt, fleet, rules.inflation, obstacles_, radii_, stop) {}
+
+  std::optional<PairReport> run() {
+    const bool finished = compare_robots() && compare_margin() && compare_obstacles();
+    return finished ? std::optional(std::move(report_)) : std::nullopt;
+  }
+
+ private:
+  using Pair = std::pair<std::size_t, std::size_t>;
+
+  static std::vector<std::vector<Leg>> legs_of_all(const std::vector<MovingObstacle>& obstacles) {
+    std::vector<std::vector<Leg>> legs;
+    legs.reserve(obstacles.size());
+    for (const MovingObstacle& obstacle : obstacles) legs.push_back(legs_of(obstacle));
+    return legs;
+  }
+  static std::vector<double> radii(const std::vector<MovingObstacle>& obstacles) {
+    std::vector<double> all;
+    all.reserve(obstacles.size());
+    for (const MovingObstacle& obstacle : obstacles) all.push_back(obstacle.radius);
+    return all;
+  }
+
+  double contact(std::size_t first, std::size_t second) const {
+    return fleet_.kept_distance(first, second, rules_.inflation);
+  }
+
+  /// Returns the indices of two robots, ascending, like their positions.
+  std::vector<std::size_t> robots(std::size_t first, std::size_t second) const {
+    return {fleet_.robots[first], fleet_.robots[second]};
+  }
+
+  bool compare_robots() {
+    std::vector<double> planned = fleet_.radii;
+    for (std::size_t i = 0; i < fleet_.size(); ++i) planned[i] += rules_.inflation + fleet_.vicinities[i];
+    const bool near_starts = planned != fleet_.radii || rules_.start_overlap > 0.0;
+    const std::size_t invalid =
+        static_cast<std::size_t>(std::count(fleet_.invalid.begin(), fleet_.invalid.end(), true));
+    const std::size_t more = (near_starts ? fleet_.size() : 0) + invalid + rules_.exempt.size();
+    const auto clearance = fleet_clearance(fleet_.legs, {fleet_.radii, planned}, fleet_.tolerances,
+                                           kMostCollisions + kNearStartsPerRobot * more, stop_,
+                                           [this](const Overlap& overlap) { return may_rest(overlap); });
+    if (!clearance) return false;
+    const bool is_pair = !fleet_.robots.empty() && fleet_.robots.front() != fleet_.robots.back();
+    if (is_pair) report_.min_clearance = clearance->least;
+    std::size_t listed = 0;
+    for (const Overlap& overlap : clearance->overlaps) {
+      if (stop_.met()) return false;
+      if (is_allowed(overlap) || ++listed > kMostCollisions) continue;
+      report(overlap);
+    }
+    return true;
+  }
+
+  bool is_exempt(const Overlap& overlap) const {
+    const auto [first, second] = Pair(overlap.first, overlap.second);
+    if (fleet_.invalid[first] && fleet_.invalid[second]) return true;
+    return exemptions_.allow_robots(first, second, overlap.t_begin);
+  }
+
+  /// Whether the overlap of two robots that never move is allowed. The interval margin leaves them out.
+  bool may_rest(const Overlap& overlap) const {
+    return is_exempt(overlap) || leaves_overlap(fleet_, overlap, rules_).has_value();
+  }
+
+  bool is_allowed(const Overlap& overlap) {
+    if (is_exempt(overlap)) return true;
+    const auto [first, second] = Pair(overlap.first, overlap.second);
+    const auto until = leaves_overlap(fleet_, overlap, rules_);
+    if (!until) return false;
+    double& left = left_at_[{first, second}];
+    left = std::max(left, *until);
+    return true;
+  }
+
+  void report(const Overlap& overlap) {
+    const double kept = contact(overlap.first, overlap.second);
+    collided_.insert({overlap.first, overlap.second});
+    report_.violations.add({Violation::Kind::robot_collision,
+                            robots(overlap.first, overlap.second),
+                            overlap.t_deepest,
+                            overlap.distance,
+                            kept,
+                            overlap_text(overlap, kept, "the disks overlap by "),
+                            {},
+                            overlap.t_begin});
+  }
+
+  bool compare_margin() {
+    const LeftOut left_out = [this](std::size_t first, std::size_t second) {
+      return times_left_out(first, second);
+    };
+    const auto overlaps = overlaps_within_margin(fleet_, rules_.interval_margin, rules_.inflation, left_out,
+                                                 kMostCollisions, stop_);
+    if (!overlaps) return false;
+    for (const ShiftedOverlap& overlap : *overlaps) {
+      if (collided_.contains({overlap.first, overlap.second})) continue;
+      const double kept = contact(overlap.first, overlap.second);
+      report_.violations.add({Violation::Kind::margin,
+                              robots(overlap.first, overlap.second),
+                              std::min(overlap.t_first, overlap.t_second),
+                              overlap.distance,
+                              kept,
+                              "the disk of the one robot at t = " + seconds(overlap.t_first) +
+                                  " overlaps that of the other at t = " + seconds(overlap.t_second) + " by " +
+                                  metres(kept - overlap.distance) + ", but the interval margin is " +
+                                  seconds(rules_.interval_margin),
+                              {}});
+    }
+    return true;
+  }
+
+  std::vector<TimeSpan> times_left_out(std::size_t first, std::size_t second) const {
+    std::vector<TimeSpan> times;
+    const double margin = rules_.interval_margin;
+    for (const TimeSpan& span : exemptions_.of_robots(first, second)) {
+      times.push_back({span.begin - margin, span.end + margin});
+    }
+    const auto left = left_at_.find({first, second});
+    if (left != left_at_.end()) times.push_back({-std::numeric_limits<double>::infinity(), left->second});
+    return times;
+  }
+
+  bool compare_obstacles() {
+    const auto overlaps = overlaps_with_obstacles(fleet_, obstacles_, radii_, exemptions_,
+                                                  kMostCollisions + rules_.exempt.size(), stop_);
+    if (!overlaps) return false;
+    std::size_t listed = 0;
+    for (const Overlap& overlap : *overlaps) {
+      if (exemptions_.allow_obstacle(overlap.first, overlap.second, overlap.t_begin)) continue;
+      if (++listed > kMostCollisions) break;
+      const double kept = fleet_.radii[overlap.first] + radii_[overlap.second];
+      report_.violations.add({Violation::Kind::moving_obstacle,
+                              {fleet_.robots[overlap.first]},
+                              overlap.t_deepest,
+                              overlap.distance,
+                              kept,
+                              overlap_text(overlap, kept, "the disk overlaps the moving obstacle by "),
+                              overlap.second});
+    }
+    return true;
+  }
+
+  const ExecutedFleet& fleet_;
+  const CheckRules& rules_;
+  const StopCondition& stop_;
+  std::vector<std::vector<Leg>> obstacles_;
+  std::vector<double> radii_;  // metres, by obstacle
+  Exemptions exemptions_;
+  PairReport report_;
+  std::set<Pair> collided_;
+  std::map<Pair, double> left_at_;  // seconds: when robots that begin too near have to keep their distance
+};
 
 /// Returns the plan of each robot, null where it has none.
 std::vector<const RobotPlan*> plans_by_robot(std::size_t robots, const std::vector<RobotPlan>& plans) {
@@ -38,7 +289,7 @@ class FleetCheck {
       if (stop_.met()) return std::nullopt;
       check_alone(index, field);
     }
-    std::optional<PairReport> pairs = check_pairs(fleet_, request_.obstacles, rules_, stop_);
+    std::optional<PairReport> pairs = PairCheck(fleet_, request_.obstacles, rules_, stop_).run();
     if (!pairs || stop_.met()) return std::nullopt;
     violations_.add(std::move(pairs->violations));
     const std::size_t count = violations_.total();

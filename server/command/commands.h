@@ -1,7 +1,7 @@
 #pragma once
 
-// The commands of the program: what they read and write, their faults of input and exit codes, and which one
-// runs.
+// The program without a server: its commands, what they read and write, their faults of input and exit codes,
+// and the probe of a server that runs.
 
 #include <cstddef>
 #include <functional>
@@ -12,7 +12,8 @@
 #include <string_view>
 #include <vector>
 
-#include "api/json/result.h"
+#include "api/json/errors.h"
+#include "server/ops/settings.h"
 #include "server/service/service.h"
 
 namespace fleetplan::server {
@@ -65,5 +66,12 @@ std::optional<double> read_number(std::string_view text);
 /// `make_service` is called only if the command needs the service.
 std::optional<int> run_command(std::vector<std::string> arguments,
                                const std::function<Service()>& make_service, const Streams& streams);
+
+/// Requests /healthz of the service that runs with these settings, perhaps in another process: on the admin
+/// port if there is one, which answers however busy the main port is. Returns the fault, if there is one.
+///
+/// The probe is for liveness, not readiness: restarting a container because it drains or its queue is full
+/// would lose its running plans.
+std::optional<std::string> health_fault(const Settings& settings);
 
 }  // namespace fleetplan::server

@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "api/json/faults.h"
+#include "api/json/errors.h"
+#include "api/json/json_reader.h"
 #include "api/json/json_writer.h"
-#include "api/json/read_json.h"
 #include "api/request/parse_request.h"
 #include "server/command/commands.h"
 

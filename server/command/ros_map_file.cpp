@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "api/json/faults.h"
+#include "api/json/errors.h"
 #include "api/json/json_writer.h"
 #include "api/request/limits.h"
 #include "server/command/commands.h"

@@ -13,11 +13,11 @@
 #include <string_view>
 #include <utility>
 
-#include "api/json/error.h"
+#include "api/json/errors.h"
 #include "server/http/answer/direct_answers.h"
 #include "server/http/exchange.h"
 #include "server/http/http_library.h"
-#include "server/http/request/negotiation.h"
+#include "server/http/request/content.h"
 #include "server/ops/request_log.h"
 
 namespace fleetplan::server {

@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "server/http/request/negotiation.h"
+#include "server/http/request/content.h"
 #include "server/http/request/request_head.h"
 #include "server/http/text.h"
 

@@ -5,7 +5,7 @@
 #include <charconv>
 #include <set>
 
-#include "api/json/error.h"
+#include "api/json/errors.h"
 #include "server/ops/process.h"
 
 namespace fleetplan::server {

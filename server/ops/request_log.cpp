@@ -14,7 +14,7 @@
 #include <thread>
 #include <utility>
 
-#include "api/json/error.h"
+#include "api/json/errors.h"
 #include "api/json/json_writer.h"
 
 namespace fleetplan::server {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <set>
 
-#include "api/json/faults.h"
+#include "api/json/errors.h"
 #include "api/request/limits.h"
 #include "core/geometry/tolerance.h"
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "api/json/faults.h"
+#include "api/json/errors.h"
 #include "api/request/limits.h"
 #include "core/geometry/angle.h"
 #include "core/geometry/tolerance.h"

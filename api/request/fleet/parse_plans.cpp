@@ -11,7 +11,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include "api/json/faults.h"
+#include "api/json/errors.h"
 #include "api/request/fleet/parse_actions.h"
 #include "api/request/fleet/parse_robots.h"
 #include "api/request/limits.h"

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "api/json/faults.h"
+#include "api/json/errors.h"
 #include "api/request/fleet/parse_actions.h"
 #include "api/request/limits.h"
 #include "api/request/shared_members.h"

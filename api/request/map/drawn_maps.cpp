@@ -7,8 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "api/json/faults.h"
-#include "api/json/result.h"
+#include "api/json/errors.h"
 #include "api/request/map/parse_map.h"
 #include "core/map/occupancy_grid.h"
 #include "core/runtime/work.h"

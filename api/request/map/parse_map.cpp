@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-#include "api/json/faults.h"
+#include "api/json/errors.h"
 #include "api/json/json_reader.h"
 #include "api/request/limits.h"
 #include "api/request/map/image/decode_image.h"

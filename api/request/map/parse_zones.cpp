@@ -14,7 +14,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "api/json/faults.h"
+#include "api/json/errors.h"
 #include "api/request/fleet/parse_robots.h"
 #include "api/request/limits.h"
 #include "api/request/map/image/decode_image.h"

@@ -33,16 +33,16 @@ struct ExecutedProgress {
   double end() const { return knots.empty() ? 0.0 : knots.back().t; }
 };
 
-/// Where the robot is from t = 0 on, as legs like those of `execute`; stand-stills in one place are one leg.
-/// Returns none if `stop` is met first.
+/// Returns where the robot is from t = 0 on, as legs like those of `execute`; stand-stills in one place are
+/// one leg. Returns none if `stop` is met first.
 std::optional<std::vector<Leg>> executed_legs(const Robot& robot, const std::vector<Action>& planned,
                                               const DisturbedActions& disturbed,
                                               const ExecutedProgress& progress, const StopCondition& stop);
 
-/// The executed motion as actions, contiguous in time and space: planned actions at their executed times, cut
-/// where the robot halts, or where the offset from its path changes. Headings are those of the plan. Of an
-/// action with a profile, the parts have one, too, unless a clock changed their acceleration. Returns none if
-/// there are more than `most`, or if `stop` is met first.
+/// Returns the executed motion as actions, contiguous in time and space: planned actions at their executed
+/// times, cut where the robot halts, or where the offset from its path changes. Headings are those of the
+/// plan. Of an action with a profile, the parts have one, too, unless a clock changed their acceleration.
+/// Returns none if there are more than `most`, or if `stop` is met first.
 std::optional<std::vector<Action>> disturbed_actions(const std::vector<Action>& planned,
                                                      const DisturbedActions& disturbed,
                                                      const ExecutedProgress& progress, std::size_t most,

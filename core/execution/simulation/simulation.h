@@ -18,7 +18,7 @@
 #include "core/runtime/executor.h"
 #include "core/runtime/stop_condition.h"
 #include "core/verify/execution.h"
-#include "core/verify/geometry/obstacle_distance.h"
+#include "core/verify/geometry/distances.h"
 
 namespace fleetplan::core {
 

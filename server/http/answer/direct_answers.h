@@ -11,8 +11,8 @@
 #include <string_view>
 #include <thread>
 
-#include "api/endpoints/plan_events.h"
-#include "api/json/error.h"
+#include "api/endpoints/request_context.h"
+#include "api/json/errors.h"
 #include "api/response/reply.h"
 #include "server/http/exchange.h"
 

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "api/json/error.h"
+#include "api/json/errors.h"
 #include "server/http/request/request_head.h"
 
 namespace fleetplan::server {

@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "api/endpoints/endpoints.h"
-#include "api/json/error.h"
+#include "api/json/errors.h"
 #include "api/openapi/generated_parts.h"
 #include "tests/api/support/requests.h"
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "api/endpoints/endpoints.h"
-#include "api/json/error.h"
+#include "api/json/errors.h"
 #include "core/runtime/stop_condition.h"
 #include "tests/api/support/requests.h"
 #include "tests/api/support/test_turn.h"

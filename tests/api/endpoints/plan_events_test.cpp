@@ -1,13 +1,12 @@
 // The events that are sent during planning.
 
-#include "api/endpoints/plan_events.h"
-
 #include <gtest/gtest.h>
 
 #include <thread>
 #include <vector>
 
 #include "api/endpoints/endpoints.h"
+#include "api/endpoints/request_context.h"
 #include "tests/api/support/requests.h"
 
 namespace fleetplan::api {

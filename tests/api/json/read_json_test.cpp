@@ -1,5 +1,3 @@
-#include "api/json/read_json.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "api/json/error.h"
+#include "api/json/errors.h"
+#include "api/json/json_reader.h"
 #include "tests/api/support/requests.h"
 #include "tests/support/unbounded_work.h"
 

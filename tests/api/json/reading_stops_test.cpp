@@ -5,7 +5,6 @@
 #include <string>
 
 #include "api/json/json_reader.h"
-#include "api/json/read_json.h"
 #include "api/request/parse_request.h"
 #include "core/runtime/work.h"
 #include "tests/api/support/requests.h"

@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "api/endpoints/endpoints.h"
-#include "api/json/error.h"
+#include "api/json/errors.h"
 #include "tests/api/support/requests.h"
 
 namespace fleetplan::api {

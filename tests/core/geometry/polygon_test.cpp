@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/verify/geometry/obstacle_distance.h"
+#include "core/verify/geometry/distances.h"
 #include "tests/support/random_zones.h"
 
 namespace fleetplan::core {

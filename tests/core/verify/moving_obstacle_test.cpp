@@ -9,7 +9,6 @@
 
 #include "core/model/plan.h"
 #include "core/verify/execution.h"
-#include "core/verify/pairs/exemptions.h"
 #include "core/verify/pairs/sweeps.h"
 #include "tests/core/verify/random_fleet.h"
 #include "tests/core/verify/scene.h"

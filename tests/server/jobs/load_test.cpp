@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "api/json/error.h"
+#include "api/json/errors.h"
 #include "tests/server/support/soon.h"
 #include "tests/server/support/test_server.h"
 

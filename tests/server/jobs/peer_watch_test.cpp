@@ -1,5 +1,3 @@
-#include "server/jobs/peer_watch.h"
-
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -9,6 +7,8 @@
 #include <condition_variable>
 #include <mutex>
 #include <thread>
+
+#include "server/jobs/job_runner.h"
 
 namespace fleetplan::server {
 namespace TEST_FILE {

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "api/json/faults.h"
+#include "api/json/errors.h"
 
 namespace fleetplan::api {
 

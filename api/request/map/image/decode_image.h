@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "api/json/errors.h"
 #include "api/json/json_reader.h"
-#include "api/json/result.h"
 #include "core/runtime/work.h"
 
 namespace fleetplan::api {

@@ -1,16 +1,46 @@
 #pragma once
 
-// The faults of a request's content: what they are, where they stand, and the phrases of their details.
+// Expected failures: the faults of a request's content, the errors of the service, from one table, and
+// results that are either a value or a failure.
 
 #include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "api/json/json_value.h"
 
 namespace fleetplan::api {
+
+/// The outcome of an operation that can fail in an expected way: either its value or its failure, two
+/// different types. Ask first:
+///
+///   auto document = read_json(body, depth);
+///   if (!document) return report(document.failure());
+///   use(*document);
+template <typename Value, typename Failure>
+class [[nodiscard]] Result {
+ public:
+  Result(Value value) : held_(std::in_place_index<0>, std::move(value)) {}        // NOLINT: implicit
+  Result(Failure failure) : held_(std::in_place_index<1>, std::move(failure)) {}  // NOLINT: implicit
+
+  explicit operator bool() const { return held_.index() == 0; }
+  /// The value; std::bad_variant_access when there is none.
+  const Value& operator*() const { return std::get<0>(held_); }
+  Value& operator*() { return std::get<0>(held_); }
+  const Value* operator->() const { return &std::get<0>(held_); }
+  Value* operator->() { return &std::get<0>(held_); }
+  /// The failure; std::bad_variant_access when there is none.
+  const Failure& failure() const { return std::get<1>(held_); }
+
+ private:
+  std::variant<Value, Failure> held_;
+};
+
+// The faults of a request's content: what they are, where they stand, and the phrases of their details.
 
 /// One fault of a request's content.
 struct Fault {
@@ -115,5 +145,61 @@ std::string pointer_step(std::string_view key);
 /// Returns where and why a body is not JSON: line, column and byte (each from 1; columns in bytes) and the
 /// text there. `position`: how many bytes had been read when the parser stopped.
 std::string explain_malformed(std::string_view body, std::size_t position);
+
+// The errors of the service, from one table, and why a request cannot be read.
+
+/// Every error of the service; its row in the table (errors.cpp) gives the HTTP status, `code` and `title`.
+enum class ErrorCode {
+  malformed_json,          // 400
+  too_deep,                // 400
+  malformed_request,       // 400, framing
+  unauthorized,            // 401
+  foreign_origin,          // 403, a page of another origin
+  not_found,               // 404
+  method_not_allowed,      // 405
+  not_acceptable,          // 406
+  request_timeout,         // 408, head or body not complete in time
+  body_too_large,          // 413
+  target_too_long,         // 414, request target
+  unsupported_media_type,  // 415
+  wrong_host,              // 421, the Host of a request to a service on loopback
+  invalid_request,         // 422, with one entry in `errors` for each fault
+  check_unfinished,        // 422, a plan that takes longer to check than the budget
+  memory_exceeded,         // 422, a request that needs more memory than it is granted
+  parse_unfinished,        // 422, a request that takes too long to read
+  head_too_large,          // 431, header fields by size or number
+  internal_error,          // 500
+  overloaded,              // 503, queue full
+  draining,                // 503, shutting down
+};
+
+/// Ends the detail of a body that is too large: nearly always its map.
+inline constexpr const char* kLargeMapRemedy =
+    " A large map is smallest as a PNG, in map.image.png; see GET /v1/limits.";
+
+inline constexpr const char* kDrainingDetail = "The service is shutting down: try another replica.";
+
+struct ErrorRow {
+  ErrorCode code;
+  int status;
+  std::string_view name;         // `code` of the answer
+  std::string_view title;        // as in RFC 9110 where the status says it all
+  std::string_view description;  // when the error is returned, for the OpenAPI document
+};
+
+/// Returns the table, in the order of ErrorCode. api/openapi.json has a response for each status in it.
+std::span<const ErrorRow> error_table();
+
+const ErrorRow& row_of(ErrorCode code);
+inline int status_of(ErrorCode code) { return row_of(code).status; }
+inline std::string_view name_of(ErrorCode code) { return row_of(code).name; }
+
+/// Why a request cannot be read.
+struct RequestError {
+  ErrorCode code = ErrorCode::invalid_request;
+  std::string detail;
+  std::vector<Fault> faults;  // the listed faults
+  std::size_t faults_total = 0;
+};
 
 }  // namespace fleetplan::api

@@ -1,3 +1,5 @@
+#include "core/execution/dependencies.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -5,7 +7,6 @@
 #include <optional>
 #include <string>
 
-#include "core/execution/dependencies.h"
 #include "tests/support/plan_builder.h"
 #include "tests/support/step_limit.h"
 

@@ -1,4 +1,4 @@
-#include "api/endpoints/plan_events.h"
+#include "api/endpoints/request_context.h"
 
 #include <algorithm>
 #include <string>

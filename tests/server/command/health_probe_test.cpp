@@ -1,10 +1,9 @@
-#include "server/ops/health_probe.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <thread>
 
+#include "server/command/commands.h"
 #include "tests/server/support/test_server.h"
 
 namespace fleetplan::server {

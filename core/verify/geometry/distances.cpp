@@ -1,4 +1,4 @@
-#include "core/verify/geometry/obstacle_distance.h"
+#include "core/verify/geometry/distances.h"
 
 #include <algorithm>
 #include <array>

@@ -1,15 +1,14 @@
-#include "api/json/faults.h"
+#include "api/json/errors.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <string_view>
 
-#include "api/json/read_json.h"
+#include "api/json/json_reader.h"
 #include "tests/support/unbounded_work.h"
 
 namespace fleetplan::api {
-
 namespace TEST_FILE {
 
 constexpr std::array<std::string_view, 3> kWords{"radius", "linear_speed", "goal"};
@@ -90,5 +89,4 @@ TEST(Location, HasTheNameOfTheLastStep) {
 }
 
 }  // namespace TEST_FILE
-
 }  // namespace fleetplan::api
