@@ -40,14 +40,14 @@ core::Pose Frame::to_core(const Pose& pose) const {
 }
 
 core::Action Frame::to_core(const Action& action) const {
-  return {static_cast<core::Action::Type>(action.type),
-          action.t_start,
-          action.t_end,
-          to_core(action.from),
-          to_core(action.to),
-          action.goal,
-          action.reverse,
-          action.profile ? std::optional(profile_of(*action.profile)) : std::nullopt};
+  return {.type = static_cast<core::Action::Type>(action.type),
+          .t_start = action.t_start,
+          .t_end = action.t_end,
+          .from = to_core(action.from),
+          .to = to_core(action.to),
+          .goal = action.goal,
+          .reverse = action.reverse,
+          .profile = action.profile ? std::optional(profile_of(*action.profile)) : std::nullopt};
 }
 
 Pose Frame::from_core(const core::Pose& pose) const {
@@ -56,16 +56,19 @@ Pose Frame::from_core(const core::Pose& pose) const {
 }
 
 Action Frame::from_core(const core::Action& action) const {
-  Action made{static_cast<Action::Type>(action.type),
-              action.t_start,
-              action.t_end,
-              from_core(action.from),
-              from_core(action.to),
-              action.goal,
-              action.reverse};
+  Action made{.type = static_cast<Action::Type>(action.type),
+              .t_start = action.t_start,
+              .t_end = action.t_end,
+              .from = from_core(action.from),
+              .to = from_core(action.to),
+              .goal = action.goal,
+              .reverse = action.reverse};
   if (const auto& profile = action.profile) {
-    made.profile = {profile->start, profile->cruise, profile->end, 1.0 / profile->inertia.rise,
-                    1.0 / profile->inertia.fall};
+    made.profile = {.start = profile->start,
+                    .cruise = profile->cruise,
+                    .end = profile->end,
+                    .acceleration = 1.0 / profile->inertia.rise,
+                    .deceleration = 1.0 / profile->inertia.fall};
   }
   return made;
 }
@@ -239,9 +242,14 @@ Verification verification_of(core::VerifyReport report) {
   made.violation_count = report.violation_count;
   made.min_clearance = report.min_clearance;
   for (core::Violation& found : report.violations) {
-    made.violations.push_back({static_cast<Violation::Kind>(found.kind), std::move(found.robots), found.t,
-                               found.distance, found.required, std::move(found.detail), found.obstacle,
-                               found.zone});
+    made.violations.push_back({.kind = static_cast<Violation::Kind>(found.kind),
+                               .robots = std::move(found.robots),
+                               .t = found.t,
+                               .distance = found.distance,
+                               .required = found.required,
+                               .detail = std::move(found.detail),
+                               .obstacle = found.obstacle,
+                               .zone = found.zone});
   }
   return made;
 }

@@ -99,13 +99,13 @@ void HttpServer::fail(const std::string& why) {
 }
 
 Gauges HttpServer::gauges() const {
-  return {main_.listener.connections(),
-          admin_ ? admin_->listener.connections() : 0,
-          static_cast<std::size_t>(settings_.workers),
-          jobs_.load(),
-          log_.dropped(),
-          jobs_.maps(),
-          unsent_answers_.stats()};
+  return {.connections = main_.listener.connections(),
+          .admin_connections = admin_ ? admin_->listener.connections() : 0,
+          .workers = static_cast<std::size_t>(settings_.workers),
+          .jobs = jobs_.load(),
+          .log_dropped = log_.dropped(),
+          .maps = jobs_.maps(),
+          .unsent = unsent_answers_.stats()};
 }
 
 }  // namespace fleetplan::server

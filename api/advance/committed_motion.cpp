@@ -36,7 +36,12 @@ std::vector<Piece> committed_pieces(const core::Robot& robot) {
   const auto add = [&](Piece piece) {
     for (; step != steps.end() && step->t < piece.end; ++step) {
       if (step->t > piece.begin) {
-        pieces.push_back({piece.begin, step->t, piece.from, piece.velocity, radius, piece.grows});
+        pieces.push_back({.begin = piece.begin,
+                          .end = step->t,
+                          .from = piece.from,
+                          .velocity = piece.velocity,
+                          .radius = radius,
+                          .grows = piece.grows});
         piece.from = piece.at(step->t);
         piece.begin = step->t;
       }
@@ -53,7 +58,11 @@ std::vector<Piece> committed_pieces(const core::Robot& robot) {
     if (action.profile && path.squaredNorm() > 0.0 && duration > 0.0) {
       const core::TimedSegment move{{action.from.position, action.to.position}, action.t_start, action.t_end};
       for (const core::TimedSegment& phase : core::phases(move, *action.profile)) {
-        add({phase.t_start, phase.t_end, phase.path.from, phase.velocity(), 0.0, false, phase.ramp});
+        add({.begin = phase.t_start,
+             .end = phase.t_end,
+             .from = phase.path.from,
+             .velocity = phase.velocity(),
+             .ramp = phase.ramp});
       }
       continue;
     }

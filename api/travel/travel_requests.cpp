@@ -47,7 +47,7 @@ Poses parse_poses(const JsonReader& list, const char* name, const WorldFrame& fr
 }
 
 /// Returns whether there are not too many pairs.
-bool check_pairs(const JsonReader& from, const JsonReader& to) {
+bool check_pose_pairs(const JsonReader& from, const JsonReader& to) {
   if (!from.array() || !to.array() || to.size() == 0 || from.size() <= kMostPairs / to.size()) return true;
   to.fault(fault::kOutOfRange, "There are " + std::to_string(from.size()) + " x " +
                                    std::to_string(to.size()) +
@@ -119,7 +119,7 @@ std::optional<MatrixRequest> parse_matrix_request(const JsonReader& root, const 
       parse_zones(root.find("zones"), map ? &*map : nullptr, limits, robot, ZoneRobots::also_others));
   const JsonReader from_member = root.require("from", "; give a list of poses {\"x\", \"y\"}");
   const JsonReader to_member = root.require("to", "; give a list of poses {\"x\", \"y\"}");
-  if (!check_pairs(from_member, to_member)) return std::nullopt;
+  if (!check_pose_pairs(from_member, to_member)) return std::nullopt;
   const Poses from = parse_poses(from_member, "from", frame);
   const Poses to = parse_poses(to_member, "to", frame);
   if (!map || root.fault_count() > 0 || stop.met()) return std::nullopt;
@@ -251,7 +251,7 @@ class TaskReader {
 };
 
 /// Returns whether there are not too many pairs of robots and tasks.
-bool check_pairs(const JsonReader& tasks, std::size_t robots) {
+bool check_task_pairs(const JsonReader& tasks, std::size_t robots) {
   if (!tasks || tasks.size() <= kMostPairs / robots) return true;
   tasks.fault(fault::kOutOfRange, "There are " + std::to_string(tasks.size()) + " tasks for " +
                                       std::to_string(robots) + " robots; this service accepts at most " +
@@ -273,7 +273,7 @@ std::optional<AssignRequest> parse_assign_request(const JsonReader& root, const 
   if (!plan || root.fault_count() > 0) return std::nullopt;
   AssignRequest request{
       .plan = std::move(*plan), .tasks = {}, .ids = {}, .weights = {}, .goals = {}, .request = member};
-  if (!tasks || !check_pairs(tasks, request.plan.problem.robots().size())) return std::nullopt;
+  if (!tasks || !check_task_pairs(tasks, request.plan.problem.robots().size())) return std::nullopt;
   TaskReader reader(request, limits);
   for (const JsonReader item : tasks.items()) reader.read(item, request);
   if (root.fault_count() > 0 || stop.met()) return std::nullopt;

@@ -33,12 +33,22 @@ Contacts::Contacts(std::vector<Endpoints> robots)
   double largest = 0.0;
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     const Endpoints& robot = robots_[i];
-    points.push_back({robot.start, i, Endpoint::start, robot.pair_radius, robot.start_rounding,
-                      robot.inflation, robot.grows_at_start});
+    points.push_back({.position = robot.start,
+                      .robot = i,
+                      .endpoint = Endpoint::start,
+                      .radius = robot.pair_radius,
+                      .rounding = robot.start_rounding,
+                      .inflation = robot.inflation,
+                      .grows = robot.grows_at_start});
     largest = std::max(largest, robot.pair_radius);
     if (!robot.goal) continue;
     const double at_goal = robot.pair_radius + (robot.radius_at_goal - robot.radius_at_start);
-    points.push_back({*robot.goal, i, Endpoint::goal, at_goal, robot.goal_rounding, robot.inflation});
+    points.push_back({.position = *robot.goal,
+                      .robot = i,
+                      .endpoint = Endpoint::goal,
+                      .radius = at_goal,
+                      .rounding = robot.goal_rounding,
+                      .inflation = robot.inflation});
     largest = std::max(largest, at_goal);
   }
   std::sort(points.begin(), points.end(),

@@ -81,8 +81,14 @@ class FixedReservations {
 
   Occupant occupant(std::size_t index) const {
     const Owner& owner = owners_[index];
-    return {tree_[index].motion, owner.index,    owner.index,  owner.is_obstacle,
-            owner.from_start,    owner.endpoint, owner.radius, tree_[index].radius};
+    return {.disk = tree_[index].motion,
+            .robot = owner.index,
+            .obstacle = owner.index,
+            .is_obstacle = owner.is_obstacle,
+            .from_start = owner.from_start,
+            .endpoint = owner.endpoint,
+            .radius = owner.radius,
+            .pair_radius = tree_[index].radius};
   }
 
   std::vector<Robot> robots_;

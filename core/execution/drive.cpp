@@ -31,12 +31,24 @@ double Drive::Piece::time_at(double place) const {
 
 Drive::Piece Drive::Piece::until(double t, double place) const {
   const double elapsed = t_end > t_start ? (t - t_start) / (t_end - t_start) : 1.0;
-  return {part, t_start, t, from, place, start, start + elapsed * (end - start)};
+  return {.part = part,
+          .t_start = t_start,
+          .t_end = t,
+          .from = from,
+          .to = place,
+          .start = start,
+          .end = start + elapsed * (end - start)};
 }
 
 Drive::Piece Drive::Piece::since(double t, double place) const {
   const double elapsed = t_end > t_start ? (t - t_start) / (t_end - t_start) : 1.0;
-  return {part, t, t_end, place, to, start + elapsed * (end - start), end};
+  return {.part = part,
+          .t_start = t,
+          .t_end = t_end,
+          .from = place,
+          .to = to,
+          .start = start + elapsed * (end - start),
+          .end = end};
 }
 
 Drive::Drive(Actions actions, std::size_t first, const std::vector<double>& factors, double t, double speed,
@@ -114,7 +126,8 @@ void Drive::add_pieces(std::size_t part, const SpeedProfile& profile, double to)
 void Drive::add_piece(std::size_t part, double seconds, double to, double start, double end) {
   const double from = pieces_.empty() ? at_ : pieces_.back().to;
   const double t = pieces_.empty() ? t_ : pieces_.back().t_end;
-  pieces_.push_back({part, t, t + seconds, from, to, start, end});
+  pieces_.push_back(
+      {.part = part, .t_start = t, .t_end = t + seconds, .from = from, .to = to, .start = start, .end = end});
 }
 
 double Drive::time_at(double place) const {
@@ -156,12 +169,12 @@ std::vector<DrivenPiece> Drive::take(double t, double place) {
 }
 
 DrivenPiece Drive::driven(const Piece& piece) const {
-  return {first_ + piece.part,
-          piece.t_start,
-          piece.t_end,
-          fraction(piece.part, piece.from),
-          fraction(piece.part, piece.to),
-          piece.ramp()};
+  return {.action = first_ + piece.part,
+          .t_start = piece.t_start,
+          .t_end = piece.t_end,
+          .from = fraction(piece.part, piece.from),
+          .to = fraction(piece.part, piece.to),
+          .ramp = piece.ramp()};
 }
 
 }  // namespace fleetplan::core

@@ -233,7 +233,11 @@ class CommittedFaults {
   }
 
   void add_pair(std::size_t robot, std::size_t other, const Collision& collision) {
-    faults_.push_back({ProblemFault::Kind::committed_collision, robot, other, collision.gap, 0, collision.t});
+    faults_.push_back({.kind = ProblemFault::Kind::committed_collision,
+                       .robot = robot,
+                       .other = other,
+                       .gap = collision.gap,
+                       .t = collision.t});
   }
 
   using Pair = std::pair<std::size_t, std::size_t>;  // a robot with a commitment, and another one

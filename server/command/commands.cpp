@@ -18,7 +18,6 @@
 
 #include "api/response/draw_plan.h"
 #include "core/runtime/stop_condition.h"
-#include "server/command/map_to_request.h"
 #include "server/http/http_library.h"
 #include "server/service/service.h"
 

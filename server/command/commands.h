@@ -1,12 +1,13 @@
 #pragma once
 
 // The program without a server: its commands, what they read and write, their faults of input and exit codes,
-// and the probe of a server that runs.
+// requests from files of ROS, and the probe of a server that runs.
 
 #include <cstddef>
 #include <functional>
 #include <iosfwd>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -73,5 +74,23 @@ std::optional<int> run_command(std::vector<std::string> arguments,
 /// The probe is for liveness, not readiness: restarting a container because it drains or its queue is full
 /// would lose its running plans.
 std::optional<std::string> health_fault(const Settings& settings);
+
+/// A map.yaml of ROS and its image.
+struct RosMapFile {
+  std::string yaml;                                       // name of the file
+  std::string image;                                      // name of the file
+  std::string json;                                       // the member `image` of a map with both
+  std::map<std::string, std::size_t, std::less<>> lines;  // line in the yaml, from 1, by member
+  std::vector<std::string> ignored;                       // lines for people about members without effect
+};
+
+/// Reads both files as map_server does: the image beside the yaml, unless its path is absolute. Does not look
+/// at whether the image can be decoded.
+api::Result<RosMapFile, InputFault> read_ros_map(const std::string& yaml, std::istream& in);
+
+/// `fleetplan map2request`: writes a request of /v1/plan for a map of ROS and a table of robots. Refuses what
+/// the service would, with the file and the line of each fault. Returns the exit code.
+int map_to_request(const std::string& yaml, const std::string& robots, const std::string& output,
+                   const Streams& streams);
 
 }  // namespace fleetplan::server

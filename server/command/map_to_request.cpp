@@ -1,5 +1,3 @@
-#include "server/command/map_to_request.h"
-
 #include <algorithm>
 #include <array>
 #include <charconv>

@@ -14,7 +14,6 @@
 #include "api/json/json_writer.h"
 #include "api/request/limits.h"
 #include "server/command/commands.h"
-#include "server/command/map_to_request.h"
 
 namespace fleetplan::server {
 

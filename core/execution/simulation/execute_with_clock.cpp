@@ -49,12 +49,21 @@ std::optional<std::vector<ClockPhase>> clock_phases(const std::vector<Action>& a
     if (k % kActionsBetweenPolls == 0 && stop.met()) return std::nullopt;
     const Action& action = actions[k];
     const double begin = action.t_start;
-    phases.push_back({Kind::awaits, k, 0.0, begin, begin, 0.0});
-    phases.push_back({Kind::stands, k, 0.0, begin, begin, disturbed.actions[k].start_delay});
+    phases.push_back({.kind = Kind::awaits, .action = k, .from = begin, .to = begin});
+    phases.push_back({.kind = Kind::stands,
+                      .action = k,
+                      .from = begin,
+                      .to = begin,
+                      .seconds = disturbed.actions[k].start_delay});
     if (action.type == Action::Type::wait) {
       const double least = purposes[k].least;
-      phases.push_back({Kind::awaits, k, 0.0, begin, action.t_end - least, 0.0});
-      phases.push_back({Kind::moves, k, 1.0, action.t_end - least, action.t_end, least});
+      phases.push_back({.kind = Kind::awaits, .action = k, .from = begin, .to = action.t_end - least});
+      phases.push_back({.kind = Kind::moves,
+                        .action = k,
+                        .to_fraction = 1.0,
+                        .from = action.t_end - least,
+                        .to = action.t_end,
+                        .seconds = least});
       continue;
     }
     double fraction = 0.0;
@@ -63,9 +72,12 @@ std::optional<std::vector<ClockPhase>> clock_phases(const std::vector<Action>& a
     for (const Phase& phase : *moving) {
       const double planned = action.t_end - begin;
       const Kind kind = phase.to_fraction > fraction ? Kind::moves : Kind::stands;
-      phases.push_back({kind, k, phase.to_fraction, begin + fraction * planned,
-                        phase.to_fraction < 1.0 ? begin + phase.to_fraction * planned : action.t_end,
-                        phase.seconds});
+      phases.push_back({.kind = kind,
+                        .action = k,
+                        .to_fraction = phase.to_fraction,
+                        .from = begin + fraction * planned,
+                        .to = phase.to_fraction < 1.0 ? begin + phase.to_fraction * planned : action.t_end,
+                        .seconds = phase.seconds});
       fraction = phase.to_fraction;
     }
   }

@@ -115,7 +115,12 @@ void OverlapList::add(std::size_t first, std::size_t second, const RelativeMotio
     overlap.distance = std::min(overlap.distance, closest.distance);
   } else if (overlaps_.size() < most_) {
     latest_[pair] = overlaps_.size();
-    overlaps_.push_back({first, second, span->begin, span->end, closest.t, closest.distance});
+    overlaps_.push_back({.first = first,
+                         .second = second,
+                         .t_begin = span->begin,
+                         .t_end = span->end,
+                         .t_deepest = closest.t,
+                         .distance = closest.distance});
   }
 }
 

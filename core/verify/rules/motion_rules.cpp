@@ -78,7 +78,12 @@ class MotionCheck {
   bool differ(double a, double b) const { return std::abs(a - b) > tolerance_.seconds; }
 
   void report(Kind kind, double t, double distance, double required, const std::string& detail) {
-    violations_.add({kind, {plan_.robot}, t, distance, required, detail, {}});
+    violations_.add(Violation{.kind = kind,
+                              .robots = {plan_.robot},
+                              .t = t,
+                              .distance = distance,
+                              .required = required,
+                              .detail = detail});
   }
 
   void check_times(std::size_t k) {

@@ -36,7 +36,12 @@ Violation overlap_with(const NearestObstacle& obstacle, std::size_t robot, doubl
                               : "the centre of the disk reaches a blocked cell";
   }
   detail += " at t = " + seconds(t);
-  return {Violation::Kind::obstacle_collision, {robot}, t, distance, radius, detail};
+  return {.kind = Violation::Kind::obstacle_collision,
+          .robots = {robot},
+          .t = t,
+          .distance = distance,
+          .required = radius,
+          .detail = detail};
 }
 
 }  // namespace

@@ -274,7 +274,12 @@ class VisitCheck {
   }
 
   void report(double t, double found, double required, const std::string& detail) {
-    violations_.push_back({Violation::Kind::wrong_visit, {plan_.robot}, t, found, required, detail, {}});
+    violations_.push_back({.kind = Violation::Kind::wrong_visit,
+                           .robots = {plan_.robot},
+                           .t = t,
+                           .distance = found,
+                           .required = required,
+                           .detail = detail});
   }
 
   const Robot& robot_;
