@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/prioritized/lattice_steps.h"
 #include "core/prioritized/orderings.h"
 #include "core/prioritized/partial_plan.h"
 
@@ -72,6 +73,7 @@ class PrioritizedPlanning {
 
   PrioritizedResult run() {
     OrderingResult ordering = plan_in_orders();
+    if (solved_in_steps_) ordering.unsolved.clear();
     result_.attempts = ordering.attempts;
     result_.cut_off = ordering.cut_off || best_.has_value();
     if (solved(ordering)) return std::move(result_);
@@ -106,9 +108,11 @@ class PrioritizedPlanning {
   }
 
   /// Keeps a safe plan at the end of the first part of the time, and returns to where planning was. Returns
-  /// whether planning goes on.
+  /// whether planning goes on. It does not if all robots that are not given up can move in steps.
   bool keep_safe_plan(const std::vector<std::size_t>& unsolved, const std::vector<std::size_t>& given_up) {
     if (best_ || time_.all.met()) return false;
+    solved_in_steps_ = follow_steps(state_, order_, given_up, random_, time_.keeping);
+    if (solved_in_steps_) return false;
     const PlanState::Reservations before = state_.reservations();
     keep_if_better(unsolved, given_up, Effort::brief, time_.keeping);
     if (best_->plan.staying.empty()) return false;
@@ -167,6 +171,7 @@ class PrioritizedPlanning {
   const PriorityOrder order_;
   StopCondition stop_;  // ends the first attempt
   std::optional<KeptPlan> best_;
+  bool solved_in_steps_ = false;
   PrioritizedResult result_;
 };
 

@@ -1,0 +1,412 @@
+#include "core/prioritized/lacam.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <memory>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+
+namespace fleetplan::core {
+namespace {
+
+/// The most places of robots in all configurations of a search together, and the most constraints: 64 MB, 48
+/// MB. A thousand robots in corridors take a tenth of them.
+constexpr std::size_t kMostPlaces = 4'000'000;
+constexpr std::size_t kMostConstraints = 1'000'000;
+
+/// The steps from each vertex to the goal of each robot, if it is alone.
+class StepDistances {
+ public:
+  static constexpr std::int32_t kNoWay = std::numeric_limits<std::int32_t>::max();
+
+  explicit StepDistances(const StepProblem& problem) : vertices_(problem.graphs.front().size()) {}
+
+  /// False if `stop` is met first, or if a robot has no way from its start.
+  bool find(const StepProblem& problem, const StopCondition& stop) {
+    distances_.reserve(problem.movers.size());
+    for (const StepProblem::Mover& mover : problem.movers) {
+      if (stop.met()) return false;
+      distances_.push_back(to(mover.goal, problem.graphs[mover.graph]));
+      if (distances_.back()[static_cast<std::size_t>(mover.start)] == kNoWay) return false;
+    }
+    return true;
+  }
+
+  std::int32_t of(std::size_t robot, int vertex) const {
+    return distances_[robot][static_cast<std::size_t>(vertex)];
+  }
+
+ private:
+  std::vector<std::int32_t> to(int goal, const StepProblem::Neighbours& neighbours) {
+    std::vector<std::int32_t> distance(vertices_, kNoWay);
+    distance[static_cast<std::size_t>(goal)] = 0;
+    queue_.assign(1, goal);
+    // Bounded: each vertex is queued once; StepProblem::kMostDistances in all.
+    for (std::size_t k = 0; k < queue_.size(); ++k) {
+      const auto here = static_cast<std::size_t>(queue_[k]);
+      for (const int next : neighbours[here]) {
+        if (next == StepProblem::kNone || distance[static_cast<std::size_t>(next)] != kNoWay) continue;
+        distance[static_cast<std::size_t>(next)] = distance[here] + 1;
+        queue_.push_back(next);
+      }
+    }
+    return distance;
+  }
+
+  std::size_t vertices_;
+  std::vector<std::vector<std::int32_t>> distances_;  // by robot, then by vertex
+  std::vector<int> queue_;
+};
+
+/// A robot that has to be at a vertex in the next configuration, and the others that have to be somewhere.
+struct Constraint {
+  const Constraint* before = nullptr;
+  std::size_t depth = 0;  // the number of robots that are bound
+  std::size_t robot = 0;
+  int vertex = StepProblem::kNone;
+};
+
+/// Makes the next configuration: Priority Inheritance with Backtracking. A robot that goes to a vertex makes
+/// the one that is there go away first, as if that had its priority.
+class NextConfiguration {
+ public:
+  NextConfiguration(const StepProblem& problem, const StepDistances& distances, Random& random)
+      : problem_(problem),
+        distances_(distances),
+        random_(random),
+        here_(problem.graphs.front().size(), kNobody),
+        next_(problem.graphs.front().size(), kNobody),
+        is_asked_(problem.movers.size(), false) {}
+
+  /// None if the constraint allows none, or if PIBT finds none with it.
+  std::optional<Configuration> make(const Configuration& from, const std::vector<std::size_t>& order,
+                                    const Constraint* constraint) {
+    from_ = &from;
+    to_.assign(from.size(), StepProblem::kNone);
+    for (std::size_t i = 0; i < from.size(); ++i) here_[index(from[i])] = static_cast<std::int32_t>(i);
+    const bool made = bind(constraint) && move_all(order) && !has_cycle();
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      here_[index(from[i])] = kNobody;
+      if (to_[i] != StepProblem::kNone) next_[index(to_[i])] = kNobody;
+    }
+    if (!made) return std::nullopt;
+    return std::move(to_);
+  }
+
+ private:
+  static constexpr std::int32_t kNobody = -1;
+  static std::size_t index(int vertex) { return static_cast<std::size_t>(vertex); }
+
+  bool bind(const Constraint* constraint) {
+    for (; constraint != nullptr && constraint->vertex != StepProblem::kNone;
+         constraint = constraint->before) {
+      if (next_[index(constraint->vertex)] != kNobody) return false;
+      if (exchanges(constraint->robot, constraint->vertex)) return false;
+      set(constraint->robot, constraint->vertex);
+    }
+    return true;
+  }
+
+  bool move_all(const std::vector<std::size_t>& order) {
+    for (const std::size_t robot : order) {
+      if (to_[robot] == StepProblem::kNone && !move(robot)) return false;
+    }
+    return true;
+  }
+
+  bool exchanges(std::size_t robot, int vertex) const {
+    const std::int32_t other = here_[index(vertex)];
+    return other != kNobody && to_[static_cast<std::size_t>(other)] == (*from_)[robot];
+  }
+
+  void set(std::size_t robot, int vertex) {
+    to_[robot] = vertex;
+    next_[index(vertex)] = static_cast<std::int32_t>(robot);
+  }
+
+  /// The vertices that a robot may go to, the best first.
+  struct Choices {
+    std::array<int, 5> vertices{};
+    std::size_t count = 0;
+  };
+  Choices choices_of(std::size_t robot) {
+    Choices choices;
+    std::array<std::pair<std::int32_t, std::size_t>, 5> keys;  // distance, and a random number for equal ones
+    const int from = (*from_)[robot];
+    const auto insert = [&](int vertex) {
+      const std::pair key(distances_.of(robot, vertex), random_.below(1U << 16));
+      std::size_t k = choices.count++;
+      for (; k > 0 && key < keys[k - 1]; --k) {
+        keys[k] = keys[k - 1];
+        choices.vertices[k] = choices.vertices[k - 1];
+      }
+      keys[k] = key;
+      choices.vertices[k] = vertex;
+    };
+    // Bounded: at most four.
+    for (const int vertex : neighbours(robot, from)) {
+      if (vertex != StepProblem::kNone) insert(vertex);
+    }
+    insert(from);
+    return choices;
+  }
+
+  /// Returns false if the robot has to stay where another one wants to go. Depth: at most one for each robot.
+  bool move(std::size_t robot) {
+    const int from = (*from_)[robot];
+    Choices choices = choices_of(robot);
+    const std::int32_t pulled = robot_to_pull(robot, choices.vertices[0]);
+    if (pulled != kNobody) {
+      std::reverse(choices.vertices.begin(),
+                   choices.vertices.begin() + static_cast<std::ptrdiff_t>(choices.count));
+    }
+    is_asked_[robot] = true;
+    for (std::size_t k = 0; k < choices.count; ++k) {
+      const int vertex = choices.vertices[k];
+      const std::int32_t other = here_[index(vertex)];
+      const bool is_other = other != kNobody && static_cast<std::size_t>(other) != robot;
+      if (next_[index(vertex)] != kNobody) continue;
+      // The one there exchanges places with this one, or asked others who asked this one: that is a cycle.
+      if (is_other && (exchanges(robot, vertex) || is_asked_[static_cast<std::size_t>(other)])) continue;
+      set(robot, vertex);
+      const bool leaves = is_other && to_[static_cast<std::size_t>(other)] == StepProblem::kNone;
+      if (leaves && !move(static_cast<std::size_t>(other))) continue;
+      is_asked_[robot] = false;
+      if (k == 0 && pulled != kNobody) pull(static_cast<std::size_t>(pulled), from);
+      return true;
+    }
+    set(robot, from);
+    is_asked_[robot] = false;
+    return false;
+  }
+
+  /// Lets a robot follow to where another one leaves.
+  void pull(std::size_t robot, int vertex) {
+    if (to_[robot] == StepProblem::kNone && next_[index(vertex)] == kNobody) set(robot, vertex);
+  }
+
+  const std::array<int, 4>& neighbours(std::size_t robot, int vertex) const {
+    return problem_.graphs[problem_.movers[robot].graph][index(vertex)];
+  }
+
+  /// In a corridor, two robots that want to pass each other go to where it ends, one pulling the other one
+  /// behind it, and exchange their order there (Okumura, IJCAI 2023). Returns whom this robot has to pull, if
+  /// anybody. `best`: where it wants to go.
+  std::int32_t robot_to_pull(std::size_t robot, int best) const {
+    const int here = (*from_)[robot];
+    if (best == here) return kNobody;
+    const std::int32_t ahead = here_[index(best)];
+    if (ahead != kNobody && to_[static_cast<std::size_t>(ahead)] == StepProblem::kNone &&
+        has_to_pass(robot, static_cast<std::size_t>(ahead), here, best) && may_pass(robot, best, here)) {
+      return ahead;
+    }
+    // One behind may have to pass this robot, once it has gone where it wants to.
+    for (const int vertex : neighbours(robot, here)) {
+      const std::int32_t behind = vertex == StepProblem::kNone ? kNobody : here_[index(vertex)];
+      if (behind == kNobody || vertex == best) continue;
+      if (has_to_pass(static_cast<std::size_t>(behind), robot, here, best) && may_pass(robot, best, here)) {
+        return behind;
+      }
+    }
+    return kNobody;
+  }
+
+  /// The ways on from a vertex but for the one back; dead ends that robots have reached for good are none.
+  struct WaysOn {
+    int count = 0;
+    int last = StepProblem::kNone;
+  };
+  WaysOn ways_on(std::size_t robot, int vertex, int back) const {
+    WaysOn ways;
+    for (const int next : neighbours(robot, vertex)) {
+      if (next == StepProblem::kNone || next == back || is_taken_dead_end(robot, next)) continue;
+      ++ways.count;
+      ways.last = next;
+    }
+    return ways;
+  }
+  bool is_taken_dead_end(std::size_t robot, int vertex) const {
+    const std::int32_t other = here_[index(vertex)];
+    if (other == kNobody || problem_.movers[static_cast<std::size_t>(other)].goal != vertex) return false;
+    const auto& next = neighbours(robot, vertex);
+    return std::count(next.begin(), next.end(), StepProblem::kNone) == 3;
+  }
+
+  /// Whether `pusher`, which drives `puller` before it along a corridor, wants to go farther than that ends,
+  /// and `puller` wants to come back.
+  bool has_to_pass(std::size_t pusher, std::size_t puller, int at, int ahead) const {
+    // Bounded: the vertices of one corridor, which are ever nearer to the goal.
+    while (distances_.of(pusher, ahead) < distances_.of(pusher, at)) {
+      const WaysOn ways = ways_on(pusher, ahead, at);
+      if (ways.count >= 2) return false;
+      if (ways.count == 0) break;
+      at = std::exchange(ahead, ways.last);
+    }
+    return distances_.of(puller, at) < distances_.of(puller, ahead) &&
+           (distances_.of(pusher, at) == 0 || distances_.of(pusher, ahead) < distances_.of(pusher, at));
+  }
+
+  /// Whether a corridor from `from` through `ahead` leads to a crossing, where two robots can change places.
+  bool may_pass(std::size_t robot, int from, int ahead) const {
+    int back = from;
+    // Bounded: the vertices of one corridor, until it comes back to where it began.
+    while (ahead != from) {
+      const WaysOn ways = ways_on(robot, ahead, back);
+      if (ways.count >= 2) return true;
+      if (ways.count == 0) return false;
+      back = std::exchange(ahead, ways.last);
+    }
+    return false;
+  }
+
+  /// Whether robots go round in a cycle.
+  bool has_cycle() const {
+    std::vector<std::uint32_t> seen(to_.size(), 0);
+    // Bounded: each robot is followed once.
+    for (std::size_t i = 0; i < to_.size(); ++i) {
+      std::size_t k = i;
+      const auto mark = static_cast<std::uint32_t>(i + 1);
+      while (seen[k] == 0) {
+        seen[k] = mark;
+        const std::int32_t ahead = here_[index(to_[k])];
+        if (ahead == kNobody || static_cast<std::size_t>(ahead) == k) break;
+        k = static_cast<std::size_t>(ahead);
+        if (seen[k] == mark) return true;
+      }
+    }
+    return false;
+  }
+
+  const StepProblem& problem_;
+  const StepDistances& distances_;
+  Random& random_;
+  const Configuration* from_ = nullptr;
+  Configuration to_;
+  std::vector<std::int32_t> here_;  // by vertex: the robot that is there now, and the one that will be
+  std::vector<std::int32_t> next_;
+  std::vector<bool> is_asked_;  // by robot: waits for another one to go away
+};
+
+/// A configuration of the search, and the constraints that have not been tried there yet.
+struct Node {
+  Configuration at;
+  std::vector<std::int32_t> waited;  // by robot: steps since it was at its goal
+  std::vector<std::size_t> order;    // of PIBT: those that have waited longest first
+  std::deque<Constraint> made;       // constraints; addresses stay
+  std::size_t next = 0;              // of `made`
+  const Node* before = nullptr;
+};
+
+std::string_view bytes_of(const Configuration& configuration) {
+  return {reinterpret_cast<const char*>(configuration.data()), configuration.size() * sizeof(int)};
+}
+
+class Lacam {
+ public:
+  Lacam(const StepProblem& problem, const StepDistances& distances, Random& random, const StopCondition& stop)
+      : problem_(problem),
+        distances_(distances),
+        random_(random),
+        stop_(stop),
+        next_(problem, distances, random) {
+    for (const StepProblem::Mover& mover : problem.movers) goals_.push_back(mover.goal);
+  }
+
+  std::optional<std::vector<Configuration>> run() {
+    Configuration starts;
+    for (const StepProblem::Mover& mover : problem_.movers) starts.push_back(mover.start);
+    add(std::move(starts), nullptr);
+    while (!open_.empty() && constraints_ < kMostConstraints && !stop_.met()) {
+      Node& node = *open_.back();
+      if (node.at == goals_) return path_to(node);
+      if (node.next == node.made.size()) {
+        open_.pop_back();
+        continue;
+      }
+      const Constraint& constraint = node.made[node.next++];
+      bind_one_more(node, constraint);
+      std::optional<Configuration> made = next_.make(node.at, node.order, &constraint);
+      if (!made) continue;
+      const auto known = known_.find(bytes_of(*made));
+      if (known != known_.end()) {
+        open_.push_back(known->second);
+      } else if (nodes_.size() * problem_.movers.size() >= kMostPlaces) {
+        return std::nullopt;
+      } else {
+        add(std::move(*made), &node);
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  void add(Configuration at, const Node* before) {
+    Node& node = nodes_.emplace_back();
+    node.at = std::move(at);
+    node.before = before;
+    node.made.emplace_back();
+    node.waited.resize(node.at.size());
+    node.order.resize(node.at.size());
+    for (std::size_t i = 0; i < node.at.size(); ++i) {
+      node.waited[i] = node.at[i] == goals_[i] || before == nullptr ? 0 : before->waited[i] + 1;
+      node.order[i] = i;
+    }
+    std::sort(node.order.begin(), node.order.end(), [&](std::size_t a, std::size_t b) {
+      if (node.waited[a] != node.waited[b]) return node.waited[a] > node.waited[b];
+      const auto far_a = distances_.of(a, problem_.movers[a].start);
+      const auto far_b = distances_.of(b, problem_.movers[b].start);
+      return far_a != far_b ? far_a > far_b : a < b;
+    });
+    known_.emplace(bytes_of(node.at), &node);
+    open_.push_back(&node);
+  }
+
+  /// Makes the constraints that bind the next robot, too: to its place or to a neighbour of it.
+  void bind_one_more(Node& node, const Constraint& constraint) {
+    if (constraint.depth == node.at.size()) return;
+    const std::size_t robot = node.order[constraint.depth];
+    const int here = node.at[robot];
+    std::vector<int> vertices{here};
+    for (const int vertex : problem_.graphs[problem_.movers[robot].graph][static_cast<std::size_t>(here)]) {
+      if (vertex != StepProblem::kNone) vertices.push_back(vertex);
+    }
+    random_.shuffle(vertices);
+    for (const int vertex : vertices) node.made.push_back({&constraint, constraint.depth + 1, robot, vertex});
+    constraints_ += vertices.size();
+  }
+
+  static std::vector<Configuration> path_to(const Node& last) {
+    std::vector<Configuration> path;
+    for (const Node* node = &last; node != nullptr; node = node->before) path.push_back(node->at);
+    std::reverse(path.begin(), path.end());
+    return path;
+  }
+
+  const StepProblem& problem_;
+  const StepDistances& distances_;
+  Random& random_;
+  const StopCondition& stop_;
+  NextConfiguration next_;
+  Configuration goals_;
+  std::deque<Node> nodes_;  // addresses stay
+  std::unordered_map<std::string_view, Node*> known_;
+  std::vector<Node*> open_;  // the last one is expanded
+  std::size_t constraints_ = 0;
+};
+
+}  // namespace
+
+std::optional<std::vector<Configuration>> plan_steps(const StepProblem& problem, Random& random,
+                                                     const StopCondition& stop) {
+  if (problem.movers.empty()) return std::vector<Configuration>{{}};
+  const std::size_t distances_in_all = problem.movers.size() * problem.graphs.front().size();
+  if (distances_in_all > StepProblem::kMostDistances) return std::nullopt;
+  StepDistances distances(problem);
+  if (!distances.find(problem, stop)) return std::nullopt;
+  return Lacam(problem, distances, random, stop).run();
+}
+
+}  // namespace fleetplan::core

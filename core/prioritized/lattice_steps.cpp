@@ -1,0 +1,304 @@
+#include "core/prioritized/lattice_steps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <utility>
+
+#include "core/geometry/disk_motion.h"
+#include "core/geometry/tolerance.h"
+#include "core/prioritized/lacam.h"
+
+namespace fleetplan::core {
+namespace {
+
+/// A step passes all vertices but its two ends at a distance of one spacing, so nothing that is farther from
+/// a vertex than this share of it, half a step along and one to the side, is nearer to one of its steps.
+constexpr double kClear = 1.1181;
+/// Vertices between two checks of the stop condition.
+constexpr int kVerticesBetweenStops = 1024;
+
+bool is_simple(const Instance& instance, std::size_t robot) {
+  const Itinerary& itinerary = instance.itinerary(robot);
+  return itinerary.goals.size() == 1 && !itinerary.goals.front().anywhere && itinerary.t_begin == 0.0 &&
+         instance.robot(robot).committed.empty() && !instance.changes_load(robot) &&
+         instance.drive_zones(robot) == nullptr;
+}
+
+/// Makes the graph of a fleet's steps, if it has one.
+class StepGraph {
+ public:
+  StepGraph(const PlanState& state, const std::vector<std::size_t>& robots)
+      : state_(state), instance_(state.instance()), robots_(robots) {}
+
+  std::optional<StepProblem> make(const StopCondition& stop) {
+    const PlanOptions& options = instance_.options();
+    if (robots_.empty() || !instance_.problem().obstacles().empty()) return std::nullopt;
+    if (options.horizon || options.interval_margin > 0.0) return std::nullopt;
+    const Lattice& lattice = instance_.lattice(robots_.front());
+    if (robots_.size() * static_cast<std::size_t>(lattice.vertex_count()) > StepProblem::kMostDistances) {
+      return std::nullopt;
+    }
+    StepProblem problem;
+    double widest = 0.0;
+    for (const std::size_t robot : robots_) {
+      if (!is_simple(instance_, robot) || &instance_.lattice(robot) != &lattice) return std::nullopt;
+      widest = std::max(widest, instance_.motion(robot).pair_radius);
+      const Itinerary& itinerary = instance_.itinerary(robot);
+      const int start = lattice.vertex_at(itinerary.pose.position);
+      const int goal = lattice.vertex_at(itinerary.goals.front().position);
+      if (start < 0 || goal < 0) return std::nullopt;
+      problem.movers.push_back({0, start, goal});
+    }
+    find_standing(widest, lattice);
+    if (2.0 * widest > lattice.spacing() || 2.0 * widest_standing_ > lattice.spacing()) return std::nullopt;
+    std::map<const FreeSpace*, std::size_t> known;
+    for (std::size_t k = 0; k < robots_.size(); ++k) {
+      FreeSpace& space = instance_.free_space(robots_[k]);
+      const auto [entry, is_new] = known.emplace(&space, problem.graphs.size());
+      problem.movers[k].graph = entry->second;
+      if (!is_new) continue;
+      problem.graphs.push_back(neighbours(space, lattice, stop));
+      if (stop.met()) return std::nullopt;
+    }
+    return problem;
+  }
+
+ private:
+  /// Notes which vertices robots that stay take.
+  void find_standing(double widest, const Lattice& lattice) {
+    widest_standing_ = widest;
+    taken_.assign(static_cast<std::size_t>(lattice.vertex_count()), false);
+    std::vector<bool> moves(instance_.size(), false);
+    for (const std::size_t robot : robots_) moves[robot] = true;
+    // Bounded: the robots, each with the few vertices around it.
+    for (std::size_t i = 0; i < instance_.size(); ++i) {
+      if (moves[i] || state_.reservations().at_start_until[i] != kForever) continue;
+      const Position& position = instance_.itinerary(i).pose.position;
+      widest_standing_ = std::max(widest_standing_, instance_.largest_disk(i).pair_radius);
+      const int vertex = lattice.vertex_at(position);
+      if (vertex >= 0) taken_[static_cast<std::size_t>(vertex)] = true;
+      if (vertex >= 0) continue;
+      for (const int near : lattice.vertices_near(position, kClear * lattice.spacing())) {
+        taken_[static_cast<std::size_t>(near)] = true;
+      }
+    }
+  }
+
+  StepProblem::Neighbours neighbours(FreeSpace& space, const Lattice& lattice,
+                                     const StopCondition& stop) const {
+    StepProblem::Neighbours all(
+        taken_.size(), {StepProblem::kNone, StepProblem::kNone, StepProblem::kNone, StepProblem::kNone});
+    for (int vertex = 0; vertex < lattice.vertex_count(); ++vertex) {
+      if (vertex % kVerticesBetweenStops == 0 && stop.met()) break;
+      if (taken_[static_cast<std::size_t>(vertex)]) continue;
+      std::uint32_t mask = space.steps_from(vertex);
+      std::size_t count = 0;
+      // Bounded: the steps of a lattice, at most 32.
+      for (std::size_t k = 0; mask != 0; ++k, mask >>= 1) {
+        const Lattice::Step step = lattice.steps()[k];
+        if ((mask & 1U) == 0 || std::abs(step.columns) + std::abs(step.rows) != 1) continue;
+        const int next = vertex + step.rows * lattice.columns() + step.columns;
+        if (!taken_[static_cast<std::size_t>(next)]) all[static_cast<std::size_t>(vertex)][count++] = next;
+      }
+    }
+    return all;
+  }
+
+  const PlanState& state_;
+  const Instance& instance_;
+  const std::vector<std::size_t>& robots_;
+  std::vector<bool> taken_;       // by vertex
+  double widest_standing_ = 0.0;  // metres; the largest radius of all robots
+};
+
+/// When a robot that is at a vertex leaves it, and how.
+struct Departure {
+  double arrival = 0.0;              // seconds; since when it has been there
+  std::vector<TimedSegment> phases;  // of the step away, and perhaps of a longer move
+  double radius = 0.0;               // metres, to other robots
+};
+
+/// Gives the steps times, one configuration after the other.
+class TimedSteps {
+ public:
+  TimedSteps(const Instance& instance, const std::vector<std::size_t>& robots, const Lattice& lattice)
+      : instance_(instance),
+        robots_(robots),
+        lattice_(lattice),
+        vertices_(static_cast<std::size_t>(lattice.vertex_count())) {
+    for (const std::size_t robot : robots) {
+      const Pose& pose = instance.itinerary(robot).pose;
+      trajectories_.push_back(instance.itinerary(robot).committed);
+      trajectories_.back().start = pose.position;
+      headings_.push_back(pose.theta);
+      arrivals_.push_back(0.0);
+    }
+  }
+
+  void step(const Configuration& from, const Configuration& to) {
+    for (std::size_t k = 0; k < from.size(); ++k) at(from[k]).robot = static_cast<int>(k);
+    is_done_.assign(from.size(), false);
+    for (std::size_t k = 0; k < from.size(); ++k) move_with_those_ahead(k, from, to);
+    for (const int vertex : from) at(vertex).robot = kNobody;
+  }
+
+  std::vector<Trajectory> finish() {
+    for (std::size_t k = 0; k < robots_.size(); ++k) {
+      const Goal& goal = instance_.itinerary(robots_[k]).goals.front();
+      double t = arrivals_[k];
+      if (goal.theta) t += instance_.motion(robots_[k]).rotation_time(headings_[k], *goal.theta);
+      trajectories_[k].cost = std::max(t, goal.not_before) + goal.service;
+    }
+    return std::move(trajectories_);
+  }
+
+ private:
+  static constexpr int kNobody = -1;
+  struct Vertex {
+    int robot = kNobody;      // which one, by its place in `robots`, begins the present step there
+    Departure last;           // of the last robot that left
+    double others_until = 0;  // seconds: when the robots before that one have arrived elsewhere
+  };
+
+  Vertex& at(int vertex) { return vertices_[static_cast<std::size_t>(vertex)]; }
+
+  /// Those who leave vertices in this step go before those who come there.
+  void move_with_those_ahead(std::size_t robot, const Configuration& from, const Configuration& to) {
+    std::vector<std::size_t> chain;
+    for (int k = static_cast<int>(robot); k != kNobody;) {
+      const auto mover = static_cast<std::size_t>(k);
+      if (is_done_[mover] || from[mover] == to[mover]) break;
+      is_done_[mover] = true;
+      chain.push_back(mover);
+      k = at(to[mover]).robot;
+    }
+    for (auto mover = chain.rbegin(); mover != chain.rend(); ++mover) move(*mover, from[*mover], to[*mover]);
+  }
+
+  /// The parts of a step from rest to rest that begins at time 0.
+  static std::vector<TimedSegment> parts(const Motion& motion, const Segment& path, double duration) {
+    const TimedSegment step{path, 0.0, duration};
+    if (!motion.linear_inertia.is_limited) return {step};
+    return phases(step, fastest_profile(path.length(), motion.linear_speed, motion.linear_inertia));
+  }
+
+  /// The time from which on a robot may set out on a step to a vertex, after the last one that was there.
+  double free_from(const Vertex& vertex, const std::vector<TimedSegment>& step, double radius) const {
+    double t = vertex.others_until;  // they may be wider than the last one
+    if (vertex.last.phases.empty()) return t;
+    const double reach = radius + vertex.last.radius;
+    const Position& here = vertex.last.phases.front().path.from;
+    std::vector<TimedSegment> ahead{{{here, here}, vertex.last.arrival, vertex.last.phases.front().t_start}};
+    ahead.insert(ahead.end(), vertex.last.phases.begin(), vertex.last.phases.end());
+    // Bounded: at most three phases of each.
+    for (const TimedSegment& other : ahead) {
+      if (!(other.duration() > 0.0)) continue;
+      const MovingDisk disk(other);
+      const UnsafeInterval there = unsafe_interval(here, disk, reach);
+      if (!there.empty()) t = std::max(t, there.end - step.back().t_end);
+      for (const TimedSegment& part : step) {
+        const UnsafeInterval forbidden =
+            forbidden_departures(part.path.from, part.velocity(), part.duration(), disk, reach, part.ramp);
+        if (!forbidden.empty()) t = std::max(t, forbidden.end - part.t_start);
+      }
+    }
+    return t;
+  }
+
+  void move(std::size_t k, int from, int to) {
+    const Motion& motion = instance_.motion(robots_[k]);
+    const Segment path{lattice_.position(from), lattice_.position(to)};
+    const Displacement way = lattice_.between(from, to);
+    const double duration = motion.translation_time(way.length);
+    const double free = free_from(at(to), parts(motion, path, duration), motion.pair_radius);
+    Trajectory& trajectory = trajectories_[k];
+    const bool goes_on = !trajectory.moves.empty() && !motion.linear_inertia.is_limited &&
+                         free <= arrivals_[k] && angle_between(headings_[k], way.heading) <= kSameHeading;
+    const double turned =
+        arrivals_[k] + motion.rotation_time(headings_[k], way.heading) + motion.wait_before_move;
+    const double departure = goes_on ? arrivals_[k] : std::max(turned, free);
+    const double arrival = departure + duration;
+    if (goes_on) {
+      trajectory.moves.back().path.to = path.to;
+      trajectory.moves.back().t_end = arrival;
+    } else {
+      trajectory.moves.push_back({path, departure, arrival});
+      if (motion.linear_inertia.is_limited) {
+        trajectory.profiles.push_back(
+            fastest_profile(way.length, motion.linear_speed, motion.linear_inertia));
+      }
+    }
+    Vertex& left = at(from);
+    if (!left.last.phases.empty()) {
+      left.others_until = std::max(left.others_until, left.last.phases.back().t_end);
+    }
+    left.last = {arrivals_[k], parts(motion, path, duration), motion.pair_radius};
+    for (TimedSegment& part : left.last.phases) {
+      part.t_start += departure;
+      part.t_end += departure;
+    }
+    headings_[k] = way.heading;
+    arrivals_[k] = arrival;
+  }
+
+  const Instance& instance_;
+  const std::vector<std::size_t>& robots_;
+  const Lattice& lattice_;
+  std::vector<Vertex> vertices_;
+  std::vector<bool> is_done_;  // by robot: has been given its time in this step
+  std::vector<Trajectory> trajectories_;
+  std::vector<double> headings_;
+  std::vector<double> arrivals_;  // seconds
+};
+
+}  // namespace
+
+std::optional<std::vector<Trajectory>> plan_in_steps(const PlanState& state,
+                                                     const std::vector<std::size_t>& robots, Random& random,
+                                                     const StopCondition& stop) {
+  const auto problem = StepGraph(state, robots).make(stop);
+  if (!problem) return std::nullopt;
+  const auto configurations = plan_steps(*problem, random, stop);
+  if (!configurations) return std::nullopt;
+  TimedSteps steps(state.instance(), robots, state.instance().lattice(robots.front()));
+  for (std::size_t k = 1; k < configurations->size(); ++k) {
+    if (stop.met()) return std::nullopt;
+    steps.step((*configurations)[k - 1], (*configurations)[k]);
+  }
+  std::vector<Trajectory> trajectories = steps.finish();
+  for (std::size_t k = 0; k < robots.size(); ++k) {
+    if (trajectories[k].cost >= state.instance().longest_plan(robots[k])) return std::nullopt;
+  }
+  return trajectories;
+}
+
+bool follow_steps(PlanState& state, const std::vector<std::size_t>& order,
+                  const std::vector<std::size_t>& hopeless, Random& random, const StopCondition& stop) {
+  std::vector<bool> moves(state.instance().size(), false);
+  for (const std::size_t robot : order) moves[robot] = true;
+  for (const std::size_t robot : hopeless) moves[robot] = false;
+  std::vector<std::size_t> robots;
+  for (const std::size_t robot : order) {
+    if (moves[robot]) robots.push_back(robot);
+  }
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    if (!moves[i] && state.trajectory(i)) return false;  // its motion is not known to steps
+  }
+  auto trajectories = plan_in_steps(state, robots, random, stop);
+  if (!trajectories) return false;
+  const PlanState::Reservations before = state.reservations();
+  for (const std::size_t robot : robots) state.remove(robot);
+  for (std::size_t k = 0; k < robots.size(); ++k) {
+    Trajectory& trajectory = (*trajectories)[k];
+    if (stop.met() || !state.conflicting_robots(robots[k], trajectory).empty()) {
+      state.restore(before);
+      return false;
+    }
+    state.follow(robots[k], std::move(trajectory));
+  }
+  return true;
+}
+
+}  // namespace fleetplan::core

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "core/model/trajectory.h"
+#include "core/prioritized/plan_state.h"
+#include "core/runtime/random.h"
+#include "core/runtime/stop_condition.h"
+
+namespace fleetplan::core {
+
+/// Plans these robots all at once, in steps along the rows and columns of the lattice (see plan_steps), among
+/// the other ones that stay. Then gives the steps times, as a temporal plan graph does (Hönig et al., ICAPS
+/// 2016): robots come to each vertex in the order of the steps, and one sets out for a vertex as soon as it
+/// does not meet the one that was there before it and is on its way to the next one.
+///
+/// None if there is no such plan, if `stop` is met, or if steps do not suffice to keep the fleet apart or to
+/// describe it: if two robots together are wider than the spacing of the lattice, if lattices differ, if a
+/// start or goal is off the lattice, if robots have several goals, commitments, loads or zones of their own
+/// to drive by, among moving obstacles, and with a horizon or an interval margin.
+///
+/// Returns a trajectory for each of the robots, in their order.
+std::optional<std::vector<Trajectory>> plan_in_steps(const PlanState& state,
+                                                     const std::vector<std::size_t>& robots, Random& random,
+                                                     const StopCondition& stop);
+
+/// Plans the robots of `order`, which no others but those that stay share the map with, in steps, except for
+/// the `hopeless` ones, which stay. Returns whether all of them follow the result, and nobody meets; if not,
+/// no reservation has changed.
+bool follow_steps(PlanState& state, const std::vector<std::size_t>& order,
+                  const std::vector<std::size_t>& hopeless, Random& random, const StopCondition& stop);
+
+}  // namespace fleetplan::core
