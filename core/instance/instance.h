@@ -11,7 +11,6 @@
 #include "core/commitments/fixed_reservations.h"
 #include "core/geometry/robot_disk.h"
 #include "core/instance/motion.h"
-#include "core/map/free_space.h"
 #include "core/map/lattice.h"
 #include "core/model/drive_zones.h"
 #include "core/model/itinerary.h"

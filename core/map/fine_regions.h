@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "core/geometry/position.h"
-#include "core/map/distance_transform.h"
 #include "core/map/lattice.h"
 #include "core/map/line_of_sight.h"
 #include "core/map/occupancy_grid.h"

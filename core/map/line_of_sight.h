@@ -7,7 +7,6 @@
 
 #include "core/geometry/polygon.h"
 #include "core/geometry/position.h"
-#include "core/map/distance_transform.h"
 #include "core/map/occupancy_grid.h"
 #include "core/runtime/stop_condition.h"
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
 #include <cstring>
 #include <functional>
@@ -73,6 +74,119 @@ double obstacle_distance(const OccupancyGrid& grid, const Position& position, do
     }
   }
   return nearest;
+}
+
+namespace {
+
+constexpr std::uint16_t kMost = 255;
+/// Rows between two checks of the stop condition.
+constexpr int kStopStride = 16;
+
+/// The lower envelope of the parabolas of one row. Places are columns + 1, so that 0 and the last are outside
+/// the map.
+class Envelope {
+ public:
+  explicit Envelope(int columns)
+      : heights_(static_cast<std::size_t>(columns) + 2), parabolas_(heights_.size()) {}
+
+  /// Replaces the distances along the columns by those in the plane.
+  void transform(std::uint16_t* row) {
+    const int last = static_cast<int>(heights_.size()) - 1;
+    heights_.front() = heights_.back() = 0;
+    for (int place = 1; place < last; ++place) height(place) = std::int64_t{row[place - 1]} * row[place - 1];
+    int top = 0;
+    parabola(0) = {0, 0};
+    // Bounded: the columns of a row; each enters and leaves the envelope once.
+    for (int place = 1; place <= last; ++place) {
+      while (top >= 0 && at(parabola(top).begin, parabola(top).place) > at(parabola(top).begin, place)) --top;
+      const std::int64_t begin = top < 0 ? 0 : 1 + crossing(parabola(top).place, place);
+      if (begin <= last) parabola(++top) = {place, static_cast<int>(begin)};
+    }
+    for (int place = last; place > 0; --place) {
+      if (place < last) {
+        const auto squared =
+            std::min<std::int64_t>(at(place, parabola(top).place), DistanceTransform::kMostSquared);
+        row[place - 1] = static_cast<std::uint16_t>(squared);
+      }
+      if (place == parabola(top).begin) --top;
+    }
+  }
+
+ private:
+  struct Parabola {
+    int place;
+    int begin;  // where it becomes the lowest
+  };
+
+  std::int64_t& height(int place) { return heights_[static_cast<std::size_t>(place)]; }
+  Parabola& parabola(int index) { return parabolas_[static_cast<std::size_t>(index)]; }
+  std::int64_t at(std::int64_t x, int place) { return (x - place) * (x - place) + height(place); }
+  /// The last place where the parabola of the first is not above that of the second.
+  std::int64_t crossing(std::int64_t first, std::int64_t second) {
+    const std::int64_t difference =
+        second * second - first * first + height(static_cast<int>(second)) - height(static_cast<int>(first));
+    return difference / (2 * (second - first));
+  }
+
+  std::vector<std::int64_t> heights_;
+  std::vector<Parabola> parabolas_;
+};
+
+}  // namespace
+
+DistanceTransform::DistanceTransform(const OccupancyGrid& grid, const StopCondition& stop)
+    : columns_(grid.columns()),
+      rows_(grid.rows()),
+      stride_((static_cast<std::size_t>(columns_) + kTileColumns - 1) / kTileColumns * kTileColumns),
+      squared_((static_cast<std::size_t>(rows_) + kTileRows - 1) / kTileRows * kTileRows * stride_) {
+  StopStride stops(stop, kStopStride);
+  finished_ = scan_columns(grid, stops) && scan_rows(stops) && make_tiles(stops);
+}
+
+/// Computes for each cell the distance to the nearest blocked cell of the same column. Returns false if
+/// `stop` is met.
+bool DistanceTransform::scan_columns(const OccupancyGrid& grid, StopStride& stop) {
+  for (int row = 0; row < rows_; ++row) {
+    if (stop.met_at_step()) return false;
+    std::uint16_t* cell = squared_.data() + static_cast<std::size_t>(row) * stride_;
+    for (int column = 0; column < columns_; ++column, ++cell) {
+      const int below = row > 0 ? *(cell - stride_) : 0;
+      *cell = grid.blocked({column, row}) ? 0 : static_cast<std::uint16_t>(std::min<int>(kMost, below + 1));
+    }
+  }
+  for (int row = rows_ - 1; row >= 0; --row) {
+    if (stop.met_at_step()) return false;
+    std::uint16_t* cell = squared_.data() + static_cast<std::size_t>(row) * stride_;
+    for (int column = 0; column < columns_; ++column, ++cell) {
+      const int above = row + 1 < rows_ ? *(cell + stride_) : 0;
+      *cell = std::min<std::uint16_t>(*cell, static_cast<std::uint16_t>(above + 1));
+    }
+  }
+  return true;
+}
+
+bool DistanceTransform::scan_rows(StopStride& stop) {
+  Envelope envelope(columns_);
+  for (int row = 0; row < rows_; ++row) {
+    if (stop.met_at_step()) return false;
+    envelope.transform(squared_.data() + static_cast<std::size_t>(row) * stride_);
+  }
+  return true;
+}
+
+/// Arranges the distances, which are stored row by row, in tiles. Returns false if `stop` is met.
+bool DistanceTransform::make_tiles(StopStride& stop) {
+  std::vector<std::uint16_t> rows(kTileRows * stride_);
+  for (std::size_t begin = 0; begin < squared_.size(); begin += rows.size()) {
+    if (stop.met_at_step()) return false;
+    std::copy_n(squared_.data() + begin, rows.size(), rows.data());
+    for (std::size_t row = 0; row < kTileRows; ++row) {
+      for (std::size_t column = 0; column < stride_; ++column) {
+        squared_[begin + tiled(column, row)] = rows[row * stride_ + column];
+      }
+    }
+  }
+  return true;
 }
 
 }  // namespace fleetplan::core

@@ -1,8 +1,9 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
-#include "core/map/free_space.h"
+#include "core/geometry/position.h"
 #include "core/map/lattice.h"
 #include "core/map/line_of_sight.h"
 #include "core/map/occupancy_grid.h"
@@ -29,5 +30,11 @@ struct FineLattice {
 /// middles between them), and not only by a long way round. Returns none if the stop condition was met first.
 std::optional<FinerVertices> refine(const OccupancyGrid& grid, const LineOfSight& sight,
                                     const Lattice& lattice, double radius, const StopCondition& stop);
+
+/// For a position from which no vertex is in sight: places on the way over the nodes of a fine lattice to one
+/// from where a vertex is, each in sight of the one before. None if there is no such way nearby. `radius` of
+/// the robot at the position and near it, at most that elsewhere.
+std::vector<Position> way_to_lattice(const Position& from, double radius, const FineLattice& nodes,
+                                     const Lattice& lattice, const FreeSpace& space);
 
 }  // namespace fleetplan::core

@@ -11,7 +11,6 @@
 #include <tuple>
 #include <vector>
 
-#include "core/map/free_space.h"
 #include "core/map/lattice.h"
 #include "core/map/line_of_sight.h"
 #include "core/map/occupancy_grid.h"

@@ -8,7 +8,6 @@
 
 #include "core/geometry/tolerance.h"
 #include "core/map/refinement.h"
-#include "core/map/way_to_lattice.h"
 
 namespace fleetplan::core {
 namespace {

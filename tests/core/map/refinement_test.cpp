@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/map/free_space.h"
+#include "core/map/lattice.h"
 #include "core/map/static_map.h"
 #include "core/runtime/stop_condition.h"
 #include "tests/support/ascii_map.h"
