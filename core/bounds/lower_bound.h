@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/geometry/position.h"
-#include "core/instance/motion.h"
+#include "core/instance/instance.h"
 #include "core/model/itinerary.h"
 #include "core/model/robot.h"
 

@@ -11,7 +11,6 @@
 #include "core/bounds/lower_bound.h"
 #include "core/bounds/tangent_graph.h"
 #include "core/instance/instance.h"
-#include "core/instance/motion.h"
 #include "core/runtime/arrays.h"
 #include "core/runtime/stop_condition.h"
 

@@ -5,8 +5,8 @@
 
 #include "core/commitments/contacts.h"
 #include "core/geometry/motion_tree.h"
-#include "core/geometry/robot_disk.h"
 #include "core/geometry/segment.h"
+#include "core/model/loads.h"
 #include "core/model/surroundings.h"
 #include "core/runtime/stop_condition.h"
 

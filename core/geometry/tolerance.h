@@ -8,6 +8,9 @@ namespace fleetplan::core {
 /// coordinates: at 1e9 m, doubles are 1.2e-7 m apart.
 inline constexpr double kContactTolerance = 5e-7;
 
+/// However much a start may overlap a wall, this fraction of the disk keeps clear of it.
+inline constexpr double kSmallestDisk = 1e-3;
+
 /// What the search subtracts from every required distance (metres), so that its own rounding (about 1e-12)
 /// has no effect. Far below the contact tolerance, so that poses of plans stay within it.
 inline constexpr double kSearchSlack = 5e-10;

@@ -34,8 +34,6 @@ namespace {
 
 /// More than what a disk in contact with an obstacle overlaps it, rounding included.
 constexpr double kMostOverlap = kContactTolerance + 2.0 * kSamePosition;
-/// However much a start may overlap a wall, this fraction of the disk keeps clear of it.
-constexpr double kSmallestDisk = 1e-3;
 
 /// Bare: with which the plan of the robot begins.
 double radius_at_begin(const Robot& robot) {

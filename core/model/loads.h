@@ -1,14 +1,14 @@
 #pragma once
 
-// What changes about a robot that picks loads up or puts them down at its goals: its radius, and how fast it
-// drives (Goal::radius_after and its companions).
+// What changes about a robot that picks loads up or puts them down at its goals (Goal::radius_after and its
+// companions): the disk that others see, and how fast it drives.
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <tuple>
 #include <vector>
 
-#include "core/geometry/robot_disk.h"
 #include "core/geometry/segment.h"
 #include "core/geometry/speed_profile.h"
 #include "core/model/action.h"
@@ -17,6 +17,27 @@
 #include "core/model/trajectory.h"
 
 namespace fleetplan::core {
+
+/// A timed segment and the radius that the robot has on it.
+struct SizedSegment : TimedSegment {
+  double radius = 0.0;  // metres; neither inflation nor vicinity included
+};
+
+/// The disk with which a robot stands or moves somewhere.
+struct Footprint {
+  std::size_t robot = 0;
+  double radius = 0.0;    // metres; neither inflation nor vicinity included
+  bool has_left = false;  // the robot's start, even if it stands there again
+};
+
+/// The largest disk that a robot ever has.
+struct LargestDisk {
+  double radius = 0.0;       // metres; neither inflation nor vicinity included
+  double pair_radius = 0.0;  // metres, to other robots: with inflation and vicinity
+
+  /// To other robots, while the robot has a radius that may be smaller.
+  double pair_radius_with(double smaller) const { return pair_radius - (radius - smaller); }
+};
 
 /// A robot while it carries the same.
 struct Load {

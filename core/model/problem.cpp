@@ -22,8 +22,6 @@ namespace {
 
 /// The most pairs of robots whose faults are found.
 constexpr std::size_t kMostPairs = 10'000;
-/// However much a start may overlap a wall, this fraction of the disk keeps clear of it.
-constexpr double kSmallestDisk = 1e-3;
 /// Halvings of a move to find out where it meets a wall: below a nanometre.
 constexpr int kHalvings = 60;
 /// Places of a move where the overlap with a wall is measured, for the message.

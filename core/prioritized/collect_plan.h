@@ -1,13 +1,16 @@
 #pragma once
 
-// The plan of a state. What it says of robots that stop at the horizon: when they would come to the goals
-// that are left, and who keeps those that are stuck from them.
+// The plan of a state: its trajectories as actions. What it says of robots that stop at the horizon: when
+// they would come to the goals that are left, and who keeps those that are stuck from them.
 
 #include <optional>
 #include <vector>
 
 #include "core/bounds/taut_path_bounds.h"
+#include "core/model/drive_zones.h"
 #include "core/model/plan.h"
+#include "core/model/robot.h"
+#include "core/model/trajectory.h"
 #include "core/prioritized/plan_state.h"
 #include "core/runtime/stop_condition.h"
 
@@ -22,5 +25,12 @@ Plan collect_plan(const PlanState& state, const std::vector<std::optional<Unplan
 /// estimates where robots that stay for good close the way. `state` follows the plan. What takes longer than
 /// `stop` allows, or more memory than there is, is left out; the plan is then not deterministic.
 Plan with_stuck_explained(PlanState& state, Plan plan, const StopCondition& stop);
+
+/// Returns the actions that execute the trajectory. They begin with the robot's committed actions, whose
+/// moves the trajectory contains. After these the robot rotates as soon as it has arrived and then waits, so
+/// that it already has the next heading while it waits before a translation. `zones` limit the speeds; null
+/// if there are none.
+std::vector<Action> to_actions(const Robot& robot, const Trajectory& trajectory,
+                               const DriveZones* zones = nullptr);
 
 }  // namespace fleetplan::core

@@ -8,7 +8,7 @@
 #include "core/bounds/lower_bound.h"
 #include "core/commitments/unavoidable_collisions.h"
 #include "core/geometry/segment.h"
-#include "core/instance/motion.h"
+#include "core/instance/instance.h"
 #include "core/model/itinerary.h"
 #include "core/model/loads.h"
 #include "core/prioritized/plan_state.h"

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/geometry/robot_disk.h"
 #include "core/geometry/segment.h"
+#include "core/model/loads.h"
 
 namespace fleetplan::core {
 

@@ -6,8 +6,8 @@
 
 #include "core/commitments/contacts.h"
 #include "core/geometry/disk_motion.h"
-#include "core/geometry/robot_disk.h"
 #include "core/geometry/segment.h"
+#include "core/model/loads.h"
 #include "core/reservation/bucket_grid.h"
 #include "core/runtime/arrays.h"
 

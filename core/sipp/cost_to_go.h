@@ -14,7 +14,7 @@
 #include "core/geometry/angle.h"
 #include "core/geometry/position.h"
 #include "core/geometry/segment.h"
-#include "core/instance/motion.h"
+#include "core/instance/instance.h"
 #include "core/runtime/arrays.h"
 #include "core/runtime/stop_condition.h"
 

@@ -12,7 +12,6 @@
 
 #include "core/geometry/position.h"
 #include "core/instance/instance.h"
-#include "core/instance/motion.h"
 #include "core/map/lattice.h"
 #include "core/model/drive_zones.h"
 #include "core/model/itinerary.h"

@@ -10,7 +10,7 @@
 
 #include "core/geometry/position.h"
 #include "core/geometry/segment.h"
-#include "core/instance/motion.h"
+#include "core/instance/instance.h"
 #include "core/runtime/arrays.h"
 #include "core/sipp/cost_to_go.h"
 

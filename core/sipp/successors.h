@@ -10,7 +10,7 @@
 #include "core/geometry/angle.h"
 #include "core/geometry/segment.h"
 #include "core/geometry/tolerance.h"
-#include "core/instance/motion.h"
+#include "core/instance/instance.h"
 #include "core/model/drive_zones.h"
 #include "core/reservation/reservation_table.h"
 #include "core/runtime/stop_condition.h"

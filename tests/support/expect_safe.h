@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "core/instance/to_actions.h"
 #include "core/map/occupancy_grid.h"
 #include "core/model/plan.h"
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"
+#include "core/prioritized/collect_plan.h"
 #include "core/prioritized/plan_state.h"
 #include "core/verify/verify.h"
 #include "tests/support/plain_check.h"

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/instance/to_actions.h"
+#include "core/prioritized/collect_plan.h"
 #include "core/sipp/aa_sipp.h"
 #include "tests/core/support/planning.h"
 

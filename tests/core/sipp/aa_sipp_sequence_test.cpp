@@ -6,9 +6,9 @@
 #include <numbers>
 #include <vector>
 
-#include "core/instance/to_actions.h"
 #include "core/model/itinerary.h"
 #include "core/planner.h"
+#include "core/prioritized/collect_plan.h"
 #include "core/sipp/aa_sipp.h"
 #include "tests/core/support/planning.h"
 #include "tests/support/expect_bounds.h"

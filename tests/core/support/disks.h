@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "core/geometry/robot_disk.h"
 #include "core/geometry/segment.h"
+#include "core/model/loads.h"
 
 namespace fleetplan::core {
 

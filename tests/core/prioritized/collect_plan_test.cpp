@@ -1,4 +1,4 @@
-#include "core/instance/to_actions.h"
+#include "core/prioritized/collect_plan.h"
 
 #include <gtest/gtest.h>
 
