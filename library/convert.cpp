@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/geometry/angle.h"
+#include "core/geometry/position.h"
 #include "core/geometry/segment.h"
 #include "core/model/action.h"
 

@@ -11,7 +11,7 @@
 #include <utility>
 #include <variant>
 
-#include "core/geometry/angle.h"
+#include "core/geometry/position.h"
 #include "core/geometry/speed_profile.h"
 #include "core/geometry/tolerance.h"
 #include "core/map/lattice.h"

@@ -4,7 +4,7 @@
 
 #include "api/advance/advance_request.h"
 #include "api/request/fleet/parse_actions.h"
-#include "core/geometry/angle.h"
+#include "core/geometry/position.h"
 #include "core/geometry/tolerance.h"
 #include "core/model/problem.h"
 

@@ -12,7 +12,7 @@
 #include "core/model/action.h"
 #include "core/model/robot.h"
 #include "core/model/surroundings.h"
-#include "core/runtime/work.h"
+#include "core/runtime/stop_condition.h"
 
 namespace fleetplan::api {
 

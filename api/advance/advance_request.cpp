@@ -16,7 +16,7 @@
 #include "api/request/parse_body.h"
 #include "api/request/parse_request.h"
 #include "api/response/write_response.h"
-#include "core/geometry/angle.h"
+#include "core/geometry/position.h"
 #include "core/model/drive_zones.h"
 #include "core/model/itinerary.h"
 

@@ -15,7 +15,7 @@
 #include "core/map/static_map.h"
 #include "core/model/action.h"
 #include "core/model/robot.h"
-#include "core/runtime/work.h"
+#include "core/runtime/stop_condition.h"
 
 namespace fleetplan::api {
 

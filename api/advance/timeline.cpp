@@ -3,7 +3,7 @@
 #include <iterator>
 
 #include "api/advance/advance.h"
-#include "core/geometry/angle.h"
+#include "core/geometry/position.h"
 #include "core/geometry/tolerance.h"
 #include "core/model/loads.h"
 

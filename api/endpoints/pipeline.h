@@ -20,7 +20,6 @@
 #include "core/model/plan.h"
 #include "core/model/robot.h"
 #include "core/runtime/stop_condition.h"
-#include "core/runtime/work.h"
 #include "core/verify/verify.h"
 
 namespace fleetplan::api {

@@ -20,7 +20,6 @@
 #include "core/model/progress.h"
 #include "core/runtime/executor.h"
 #include "core/runtime/stop_condition.h"
-#include "core/runtime/work.h"
 
 namespace fleetplan::api {
 

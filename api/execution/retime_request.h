@@ -12,7 +12,7 @@
 #include "core/execution/retime.h"
 #include "core/model/plan.h"
 #include "core/model/robot.h"
-#include "core/runtime/work.h"
+#include "core/runtime/stop_condition.h"
 
 namespace fleetplan::api {
 

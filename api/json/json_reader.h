@@ -14,7 +14,7 @@
 
 #include "api/json/errors.h"
 #include "api/json/json_value.h"
-#include "core/runtime/work.h"
+#include "core/runtime/stop_condition.h"
 
 namespace fleetplan::api {
 

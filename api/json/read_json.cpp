@@ -14,7 +14,7 @@
 
 #include "api/json/errors.h"
 #include "api/json/json_reader.h"
-#include "core/runtime/stoppable_sort.h"
+#include "core/runtime/arrays.h"
 
 namespace fleetplan::api {
 

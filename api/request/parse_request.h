@@ -24,7 +24,7 @@
 #include "core/model/problem.h"
 #include "core/model/robot.h"
 #include "core/model/surroundings.h"
-#include "core/runtime/work.h"
+#include "core/runtime/stop_condition.h"
 #include "core/travel/goal_choice.h"
 #include "core/verify/check_rules.h"
 

@@ -9,7 +9,7 @@
 #include "api/json/errors.h"
 #include "api/json/json_writer.h"
 #include "api/response/reply.h"
-#include "core/geometry/angle.h"
+#include "core/geometry/position.h"
 #include "core/geometry/tolerance.h"
 #include "core/model/objective_share.h"
 

@@ -16,7 +16,7 @@
 #include "core/map/static_map.h"
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"
-#include "core/runtime/work.h"
+#include "core/runtime/stop_condition.h"
 #include "core/travel/travel_times.h"
 
 namespace fleetplan::api {

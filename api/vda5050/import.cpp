@@ -15,7 +15,7 @@
 #include "api/request/limits.h"
 #include "api/vda5050/parse_vda5050_request.h"
 #include "api/vda5050/write_orders.h"
-#include "core/geometry/angle.h"
+#include "core/geometry/position.h"
 
 namespace fleetplan::api {
 

@@ -15,7 +15,7 @@
 #include "api/request/limits.h"
 #include "api/vda5050/parse_vda5050_request.h"
 #include "core/geometry/segment.h"
-#include "core/runtime/work.h"
+#include "core/runtime/stop_condition.h"
 
 namespace fleetplan::api {
 

@@ -21,7 +21,7 @@
 #include "core/geometry/segment.h"
 #include "core/model/plan.h"
 #include "core/model/robot.h"
-#include "core/runtime/work.h"
+#include "core/runtime/stop_condition.h"
 
 namespace fleetplan::api {
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/execution/executed_actions.h"
-#include "core/geometry/angle.h"
+#include "core/geometry/position.h"
 #include "core/geometry/tolerance.h"
 
 namespace fleetplan::api {

@@ -11,7 +11,7 @@
 #include "core/execution/dependencies.h"
 #include "core/execution/executed_actions.h"
 #include "core/model/robot.h"
-#include "core/runtime/work.h"
+#include "core/runtime/stop_condition.h"
 
 namespace fleetplan::api {
 

@@ -11,7 +11,7 @@
 #include "api/json/json_writer.h"
 #include "api/vda5050/parse_vda5050_request.h"
 #include "api/vda5050/route.h"
-#include "core/geometry/angle.h"
+#include "core/geometry/position.h"
 
 namespace fleetplan::api {
 

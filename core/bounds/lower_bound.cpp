@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/geometry/angle.h"
+#include "core/geometry/position.h"
 #include "core/geometry/tolerance.h"
 
 namespace fleetplan::core {

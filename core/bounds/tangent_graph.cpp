@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/geometry/angle.h"
+#include "core/geometry/position.h"
 #include "core/geometry/tolerance.h"
 
 namespace fleetplan::core {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <tuple>
 
-#include "core/runtime/stoppable_sort.h"
+#include "core/runtime/arrays.h"
 
 namespace fleetplan::core {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "core/commitments/contacts.h"
 #include "core/commitments/fixed_reservations.h"
-#include "core/geometry/angle.h"
+#include "core/geometry/position.h"
 #include "core/geometry/speed_profile.h"
 #include "core/map/lattice.h"
 #include "core/model/drive_zones.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/geometry/angle.h"
+#include "core/geometry/position.h"
 
 namespace fleetplan::core {
 namespace {

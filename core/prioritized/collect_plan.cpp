@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/geometry/angle.h"
+#include "core/geometry/position.h"
 #include "core/geometry/tolerance.h"
 #include "core/model/itinerary.h"
 #include "core/prioritized/enclosure.h"

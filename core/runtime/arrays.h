@@ -1,7 +1,8 @@
 #pragma once
 
-// Arrays beside those of the standard library.
+// Arrays, and a sort of vectors, beside those of the standard library.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <memory>
@@ -87,5 +88,30 @@ class PagedArray {
   std::vector<std::unique_ptr<Book>> books_;
   std::size_t pages_ = 0;
 };
+
+/// Items that stoppable_sort() sorts at once.
+inline constexpr std::size_t kSortChunk = 4096;
+
+/// Sorts, as std::sort cannot be stopped: chunks of kSortChunk items, which are then merged. Calls
+/// `met(items)` before it sorts or merges so many, about a millisecond of work at first; ends when that
+/// returns true. Returns false then, and the items are in any order.
+template <class T, class Less, class Met>
+bool stoppable_sort(std::vector<T>& items, const Less& less, const Met& met) {
+  const auto at = [&](std::size_t index) {
+    return items.begin() + static_cast<std::ptrdiff_t>(std::min(index, items.size()));
+  };
+  for (std::size_t begin = 0; begin < items.size(); begin += kSortChunk) {
+    if (met(kSortChunk)) return false;
+    std::sort(at(begin), at(begin + kSortChunk), less);
+  }
+  // Bounded: `met` is asked before each merge.
+  for (std::size_t width = kSortChunk; width < items.size(); width *= 2) {
+    for (std::size_t begin = 0; begin < items.size(); begin += 2 * width) {
+      if (met(2 * width)) return false;
+      std::inplace_merge(at(begin), at(begin + width), at(begin + 2 * width), less);
+    }
+  }
+  return true;
+}
 
 }  // namespace fleetplan::core

@@ -11,7 +11,6 @@
 #include <queue>
 #include <vector>
 
-#include "core/geometry/angle.h"
 #include "core/geometry/position.h"
 #include "core/geometry/segment.h"
 #include "core/instance/instance.h"

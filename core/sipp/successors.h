@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/geometry/angle.h"
+#include "core/geometry/position.h"
 #include "core/geometry/segment.h"
 #include "core/geometry/tolerance.h"
 #include "core/instance/instance.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/geometry/angle.h"
+#include "core/geometry/position.h"
 #include "core/geometry/tolerance.h"
 
 namespace fleetplan::core {

@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "core/geometry/angle.h"
+#include "core/geometry/position.h"
 #include "core/geometry/tolerance.h"
 #include "core/verify/execution.h"
 #include "core/verify/geometry/relative_motion.h"

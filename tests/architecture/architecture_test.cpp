@@ -165,7 +165,7 @@ TEST(SourceRules, RejectTheSearchInTheChecker) {
     EXPECT_THAT(violations(path, "#include \"" + header + "\"\n"),
                 ElementsAre(path + " must not include \"" + header + "\""));
   }
-  EXPECT_THAT(violations(path, "#include \"core/geometry/angle.h\"\n#include \"core/model/plan.h\"\n"),
+  EXPECT_THAT(violations(path, "#include \"core/geometry/position.h\"\n#include \"core/model/plan.h\"\n"),
               IsEmpty());
 }
 

@@ -14,7 +14,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/geometry/angle.h"
+#include "core/geometry/position.h"
 #include "core/geometry/tolerance.h"
 #include "core/map/occupancy_grid.h"
 #include "core/planner.h"

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/geometry/angle.h"
+#include "core/geometry/position.h"
 #include "core/model/itinerary.h"
 #include "core/model/loads.h"
 #include "core/model/plan.h"

@@ -15,7 +15,7 @@
 
 #include "core/execution/dependencies.h"
 #include "core/execution/executed_actions.h"
-#include "core/geometry/angle.h"
+#include "core/geometry/position.h"
 #include "core/model/plan.h"
 #include "tests/support/random_problem.h"
 

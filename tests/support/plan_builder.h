@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "core/geometry/angle.h"
+#include "core/geometry/position.h"
 #include "core/model/plan.h"
 #include "core/model/robot.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/runtime/work.h"
+#include "core/runtime/stop_condition.h"
 
 namespace fleetplan {
 

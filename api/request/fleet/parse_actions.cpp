@@ -9,7 +9,7 @@
 
 #include "api/json/errors.h"
 #include "api/request/limits.h"
-#include "core/geometry/angle.h"
+#include "core/geometry/position.h"
 #include "core/geometry/tolerance.h"
 
 namespace fleetplan::api {

@@ -13,7 +13,7 @@
 #include "api/request/fleet/parse_actions.h"
 #include "api/request/limits.h"
 #include "api/request/shared_members.h"
-#include "core/geometry/angle.h"
+#include "core/geometry/position.h"
 #include "core/geometry/tolerance.h"
 
 namespace fleetplan::api {

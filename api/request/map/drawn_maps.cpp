@@ -10,7 +10,7 @@
 #include "api/json/errors.h"
 #include "api/request/map/parse_map.h"
 #include "core/map/occupancy_grid.h"
-#include "core/runtime/work.h"
+#include "core/runtime/stop_condition.h"
 
 namespace fleetplan::api {
 

@@ -19,7 +19,7 @@
 #include "api/request/limits.h"
 #include "api/request/map/image/decode_image.h"
 #include "api/request/shared_members.h"
-#include "core/geometry/angle.h"
+#include "core/geometry/position.h"
 
 namespace fleetplan::api {
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <span>
 
-#include "core/geometry/angle.h"
+#include "core/geometry/position.h"
 
 namespace fleetplan::core {
 namespace {

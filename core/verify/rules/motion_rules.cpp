@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "core/geometry/angle.h"
+#include "core/geometry/position.h"
 #include "core/verify/rules/robot_rules.h"
 
 namespace fleetplan::core {

@@ -3,7 +3,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/geometry/angle.h"
+#include "core/geometry/position.h"
 #include "core/geometry/tolerance.h"
 #include "core/verify/rules/robot_rules.h"
 

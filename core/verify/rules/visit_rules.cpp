@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "core/geometry/angle.h"
+#include "core/geometry/position.h"
 #include "core/geometry/segment.h"
 #include "core/geometry/tolerance.h"
 #include "core/verify/rules/robot_rules.h"

@@ -7,7 +7,7 @@
 
 #include "api/advance/advance.h"
 #include "api/request/fleet/parse_actions.h"
-#include "core/geometry/angle.h"
+#include "core/geometry/position.h"
 #include "tests/api/advance/driving_fleet.h"
 
 namespace fleetplan::api {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "api/endpoints/endpoints.h"
-#include "core/runtime/work.h"
+#include "core/runtime/stop_condition.h"
 #include "tests/api/support/answers.h"
 #include "tests/api/support/motion_requests.h"
 #include "tests/support/sanitized.h"

@@ -6,7 +6,7 @@
 
 #include "api/json/json_reader.h"
 #include "api/request/parse_request.h"
-#include "core/runtime/work.h"
+#include "core/runtime/stop_condition.h"
 #include "tests/api/support/requests.h"
 
 namespace fleetplan::api {

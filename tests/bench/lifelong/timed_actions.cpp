@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/geometry/angle.h"
+#include "core/geometry/position.h"
 
 namespace fleetplan::bench {
 namespace {

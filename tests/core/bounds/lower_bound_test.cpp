@@ -8,7 +8,7 @@
 #include <optional>
 #include <random>
 
-#include "core/geometry/angle.h"
+#include "core/geometry/position.h"
 #include "tests/core/support/planning.h"
 #include "tests/support/random_problem.h"
 

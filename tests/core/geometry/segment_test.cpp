@@ -22,12 +22,6 @@ TEST(Segment, OfLengthZeroIsAPoint) {
   EXPECT_EQ(distance_to_segment({4, 5}, point), 5.0);
 }
 
-TEST(CrossProduct, IsPositiveForADirectionToTheLeft) {
-  EXPECT_EQ(cross_product({2, 0}, {1, 3}), 6.0);
-  EXPECT_EQ(cross_product({1, 3}, {2, 0}), -6.0);
-  EXPECT_EQ(cross_product({2, 1}, {4, 2}), 0.0);
-}
-
 TEST(SafeInterval, ContainsItsEnds) {
   const SafeInterval interval{1.0, 2.0};
   EXPECT_TRUE(interval.contains(1.0));

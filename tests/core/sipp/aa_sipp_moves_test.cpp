@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/geometry/angle.h"
+#include "core/geometry/position.h"
 #include "core/sipp/aa_sipp.h"
 #include "tests/core/support/planning.h"
 #include "tests/support/random_problem.h"

@@ -12,7 +12,7 @@
 
 #include "api/json/errors.h"
 #include "api/json/json_reader.h"
-#include "core/runtime/work.h"
+#include "core/runtime/stop_condition.h"
 
 namespace fleetplan::api {
 

@@ -1,4 +1,4 @@
-#include "core/geometry/angle.h"
+#include "core/geometry/position.h"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +8,12 @@ namespace fleetplan::core {
 namespace TEST_FILE {
 
 constexpr double kPi = std::numbers::pi;
+
+TEST(CrossProduct, IsPositiveForADirectionToTheLeft) {
+  EXPECT_EQ(cross_product({2, 0}, {1, 3}), 6.0);
+  EXPECT_EQ(cross_product({1, 3}, {2, 0}), -6.0);
+  EXPECT_EQ(cross_product({2, 1}, {4, 2}), 0.0);
+}
 
 TEST(Angle, NormalisesToHalfOpenInterval) {
   EXPECT_EQ(normalize_angle(0.5), 0.5);
