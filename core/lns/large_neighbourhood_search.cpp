@@ -12,7 +12,6 @@
 #include "core/lns/incumbent.h"
 #include "core/lns/iterations.h"
 #include "core/lns/pipeline.h"
-#include "core/lns/workspace_pool.h"
 #include "core/runtime/memory_account.h"
 
 namespace fleetplan::core {

@@ -27,8 +27,8 @@ using BeforeRound = std::function<void(const LnsResult& so_far)>;
 /// Pisinger, 2006). An iteration
 ///
 /// 1. chooses a delayed robot, the neighbourhood, its size and the search effort by their recent success,
-/// 2. selects the robots of the neighbourhood (see neighbourhood.h),
-/// 3. plans them again (see plan_neighbourhood.h), and
+/// 2. selects the robots of the neighbourhood,
+/// 3. plans them again (see neighbourhood.h), and
 /// 4. accepts the change if the objective falls: the flowtime, or the tardiness; or the makespan, or the
 ///    flowtime without a longer makespan (see objective_share.h). A sum may also rise a little, which leads
 ///    out of local optima (threshold accepting; Dueck and Scheuer, 1990). The best plan is kept (see

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/model/objective_share.h"
+
 namespace fleetplan::core {
 namespace {
 
@@ -112,6 +114,134 @@ const Trajectory& NeighbourhoodSelection::trajectory_alone(std::size_t robot) {
   std::optional<Trajectory>& trajectory = trajectories_alone_[robot];
   if (!trajectory) trajectory = state_.plan_alone(robot, stop_);
   return *trajectory;
+}
+
+namespace {
+
+/// A gain below this is rounding, weighted seconds.
+constexpr double kLeastGain = 1e-9;
+
+class NeighbourhoodPlanning {
+ public:
+  NeighbourhoodPlanning(PlanState& state, const std::vector<std::size_t>& robots,
+                        const TautPathBounds& bounds, const NeighbourhoodOptions& options,
+                        const StopCondition& stop)
+      : state_(state),
+        instance_(state.instance()),
+        objective_(instance_.options().objective),
+        bounds_(bounds),
+        options_(options),
+        stop_(stop),
+        unplanned_(robots),
+        queue_{robots.front()} {}
+
+  NeighbourhoodResult run() {
+    const bool accepted = plan_queue();
+    for (const Change::Part& part : before_) state_.remove(part.robot);
+    for (Change::Part& part : before_) state_.follow(part.robot, std::move(part.trajectory));
+    NeighbourhoodResult result{std::nullopt, searches_, expansions_};
+    if (accepted) result.change = std::move(change_);
+    return result;
+  }
+
+ private:
+  double share(std::size_t robot, const Trajectory& trajectory) const {
+    return share_of(instance_.robot(robot), objective_, trajectory);
+  }
+  double share(std::size_t robot) const { return share(robot, *state_.trajectory(robot)); }
+  double least_share(std::size_t robot) const {
+    return core::least_share(instance_.robot(robot), objective_, bounds_[robot]);
+  }
+
+  bool plan_queue() {
+    for (std::size_t k = 0; k < queue_.size(); ++k) {  // the queue grows
+      const std::size_t robot = queue_[k];
+      SearchResult result = search(k);
+      if (!result.trajectory) return false;
+      const double gained = share(robot) - share(robot, *result.trajectory);
+      if (k == 0 || options_.gain == NeighbourhoodOptions::Gain::sum) change_.gain += gained;
+      std::erase(unplanned_, robot);
+      enqueue_conflicting(robot, *result.trajectory);
+      change_.parts.push_back({robot, std::move(*result.trajectory)});
+      if (k + 1 < queue_.size()) follow_for_now(change_.parts.back());
+    }
+    return change_.gain > kLeastGain - options_.most_loss;
+  }
+
+  /// Plans the robot at this position of the queue. At first only the robots in the queue are ignored.
+  SearchResult search(std::size_t position) {
+    SearchLimits limits = options_.limits;
+    limits.bound = std::min(options_.cost_limit, cost_bound(position));
+    if (position > 0) {
+      const auto waiting = queue_.begin() + static_cast<std::ptrdiff_t>(position);
+      SearchResult result = search({waiting, queue_.end()}, queue_[position], limits);
+      const bool all_in_queue = queue_.size() - position == unplanned_.size();
+      if (result.trajectory || all_in_queue) return result;
+    }
+    return search(unplanned_, queue_[position], limits);
+  }
+
+  SearchResult search(const std::vector<std::size_t>& ignored, std::size_t robot,
+                      const SearchLimits& limits) {
+    SearchResult result = state_.plan_ignoring(ignored, robot, limits, stop_);
+    ++searches_;
+    expansions_ += result.expansions;
+    return result;
+  }
+
+  /// The least cost at which the robot at this position of the queue would make the change unacceptable.
+  double cost_bound(std::size_t position) const {
+    const std::size_t robot = queue_[position];
+    const double now = share(robot);
+    double most = now;
+    if (position == 0) {  // the change is for its sake, so it has to gain itself
+      most = now - std::max(kLeastGain, options_.min_gain_share * (now - least_share(robot)));
+    } else {
+      if (options_.gain == NeighbourhoodOptions::Gain::first) return kForever;
+      double possible_gain = 0.0;  // by the robots that follow in the queue
+      for (std::size_t k = position + 1; k < queue_.size(); ++k) {
+        possible_gain += std::max(0.0, share(queue_[k]) - least_share(queue_[k]));
+      }
+      most = now + change_.gain + possible_gain + options_.most_loss - kLeastGain;
+    }
+    return cost_with_share(instance_.robot(robot), objective_, most);
+  }
+
+  void enqueue_conflicting(std::size_t robot, const Trajectory& trajectory) {
+    if (unplanned_.empty()) return;
+    for (const std::size_t other : state_.conflicting_robots(robot, trajectory)) {
+      const bool may_change = std::find(unplanned_.begin(), unplanned_.end(), other) != unplanned_.end();
+      if (may_change && std::find(queue_.begin(), queue_.end(), other) == queue_.end()) {
+        queue_.push_back(other);
+      }
+    }
+  }
+
+  void follow_for_now(const Change::Part& part) {
+    before_.push_back({part.robot, *state_.trajectory(part.robot)});
+    state_.follow(part.robot, part.trajectory);
+  }
+
+  PlanState& state_;
+  const Instance& instance_;
+  const PlanOptions::Objective objective_;
+  const TautPathBounds& bounds_;
+  const NeighbourhoodOptions& options_;
+  const StopCondition& stop_;
+  std::vector<std::size_t> unplanned_;  // robots of the neighbourhood without a new trajectory
+  std::vector<std::size_t> queue_;      // robots to plan, and those planned already
+  std::vector<Change::Part> before_;    // trajectories that are replaced for now
+  Change change_;
+  std::int64_t searches_ = 0;
+  std::int64_t expansions_ = 0;
+};
+
+}  // namespace
+
+NeighbourhoodResult plan_neighbourhood(PlanState& state, const std::vector<std::size_t>& robots,
+                                       const TautPathBounds& bounds, const NeighbourhoodOptions& options,
+                                       const StopCondition& stop) {
+  return NeighbourhoodPlanning(state, robots, bounds, options, stop).run();
 }
 
 }  // namespace fleetplan::core

@@ -9,10 +9,10 @@
 #include "core/instance/instance.h"
 #include "core/model/trajectory.h"
 #include "core/prioritized/enclosure.h"
-#include "core/prioritized/search_spaces.h"
 #include "core/reservation/reservation_table.h"
 #include "core/runtime/stop_condition.h"
 #include "core/sipp/aa_sipp.h"
+#include "core/sipp/search_space.h"
 
 namespace fleetplan::core {
 

@@ -3,6 +3,7 @@
 // The nodes of the search for one robot: places, labels and edges, the open list, and dominance.
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -10,6 +11,7 @@
 
 #include "core/geometry/position.h"
 #include "core/geometry/segment.h"
+#include "core/geometry/tolerance.h"
 #include "core/instance/instance.h"
 #include "core/runtime/arrays.h"
 #include "core/sipp/cost_to_go.h"
@@ -198,6 +200,39 @@ class DominanceTable {
   IndexedVector<ArrivalId> first_;  // by interval
   IndexedVector<Arrival, ArrivalId> arrivals_;
 };
+
+inline void DominanceTable::reset(const Motion& motion, double slack) {
+  motion_ = &motion;
+  slack_ = slack;
+  first_.clear();
+  arrivals_.clear();
+}
+
+inline bool DominanceTable::contains(int interval, double time, double heading) const {
+  for (ArrivalId id = first_[interval]; id != ArrivalId::none;) {
+    const Arrival& arrival = arrivals_[id];
+    if (std::abs(arrival.time - time) <= kSameTime && angle_between(arrival.heading, heading) <= kSameHeading)
+      return true;
+    id = arrival.next;
+  }
+  return false;
+}
+
+inline ArrivalId DominanceTable::add(int interval, double time, double heading) {
+  ArrivalId* link = &first_[interval];
+  while (*link != ArrivalId::none) {
+    Arrival& arrival = arrivals_[*link];
+    const double ready = motion_->rotation_time(heading, arrival.heading) + motion_->wait_before_move;
+    if (time + ready <= arrival.time) {
+      arrival.dominated = true;
+      *link = arrival.next;
+    } else {
+      link = &arrival.next;
+    }
+  }
+  *link = arrivals_.next_index();
+  return arrivals_.push_back({time, heading, ArrivalId::none, false});
+}
 
 /// What the search for one robot has reached. Kept from search to search for its memory.
 struct SearchState {

@@ -63,5 +63,134 @@ TEST(NeighbourhoodSelection, ContainsNoRobotTwice) {
   EXPECT_THAT(p.select(0, Neighbourhood::random, 2), SizeIs(2));
 }
 
+using support::exact_text;
+using support::plans_of;
+
+constexpr double kUp = 1.5707963267948966;
+
+/// Robot 1 crosses the path of robot 0, which waits longer than necessary; no robot conflicts with robot 2.
+struct Crossing : Planning {
+  Crossing()
+      : Planning(OccupancyGrid(9, 9, 1.0),
+                 {robot_at(0.5, 4.5).to(8.5, 4.5), robot_at(4.5, 0.5, kUp).to(4.5, 8.5),
+                  robot_at(8.5, 8.5, -kUp).to(8.5, 7.5)}),
+        bounds(instance, movers(), std::vector<double>(instance.size(), kForever), never) {
+    state.follow(0, through({{0.5, 4.5}, {8.5, 4.5}}, 6.0));
+    state.follow(1, through({{4.5, 0.5}, {4.5, 8.5}}, 1.0));
+    state.follow(2, through({{8.5, 8.5}, {8.5, 7.5}}));
+  }
+
+  NeighbourhoodResult plan_again(const std::vector<std::size_t>& robots,
+                                 const NeighbourhoodOptions& options = {}) {
+    return plan_neighbourhood(state, robots, bounds, options, never);
+  }
+  double sum() const {
+    double sum = 0.0;
+    for (const RobotPlan& plan : plans_of(state)) sum += plan.cost;
+    return sum;
+  }
+
+  void apply(Change change) {
+    for (const Change::Part& part : change.parts) state.remove(part.robot);
+    for (Change::Part& part : change.parts) state.follow(part.robot, std::move(part.trajectory));
+  }
+
+  TautPathBounds bounds;
+};
+
+TEST(PlanNeighbourhood, MakesOneRobotCheaper) {
+  Crossing p;
+  const double before = p.sum();
+  NeighbourhoodResult result = p.plan_again({0});
+  ASSERT_TRUE(result.change);
+  EXPECT_EQ(result.searches, 1);
+  ASSERT_EQ(result.change->parts.size(), 1U);
+  const double gain = result.change->gain;
+  EXPECT_EQ(p.sum(), before) << "the state is unchanged";
+  p.apply(std::move(*result.change));
+  EXPECT_NEAR(p.sum(), before - gain, 1e-9);
+  support::expect_safe(p.state);
+}
+
+TEST(PlanNeighbourhood, ChangesOnlyConflictingRobots) {
+  Crossing p;
+  NeighbourhoodResult result = p.plan_again({0, 1, 2});
+  ASSERT_TRUE(result.change);
+  for (const Change::Part& part : result.change->parts)
+    EXPECT_NE(part.robot, 2U) << "no robot conflicts with it";
+  const double before = p.sum();
+  const double gain = result.change->gain;
+  p.apply(std::move(*result.change));
+  EXPECT_NEAR(p.sum(), before - gain, 1e-9);
+  support::expect_safe(p.state);
+}
+
+TEST(PlanNeighbourhood, FindsNoChangeForARobotAtItsLowerBound) {
+  Crossing p;
+  EXPECT_FALSE(p.plan_again({2, 0, 1}).change);
+}
+
+TEST(PlanNeighbourhood, RejectsAGainBelowTheRequiredShare) {
+  Crossing p;
+  NeighbourhoodOptions options;
+  options.min_gain_share = 0.8;
+  EXPECT_TRUE(p.plan_again({0}, options).change);
+  options.min_gain_share = 0.99;  // robot 1 prevents it
+  EXPECT_FALSE(p.plan_again({0}, options).change);
+}
+
+TEST(PlanNeighbourhood, AcceptsALossUpToTheLimit) {
+  // Where corridors cross, the slow robot loses little behind the fast one, which would lose much behind it.
+  Planning p(support::ascii_map({"####.####",  //
+                                 "####.####",  //
+                                 "####.####",  //
+                                 "####.####",  //
+                                 ".........",  //
+                                 "####.####",  //
+                                 "####.####",  //
+                                 "####.####",  //
+                                 "####.####"}),
+             {robot_at(3.2, 4.5).speeds(0.25, 1.5).to(8.5, 4.5), robot_at(4.5, 0.5, kUp).to(4.5, 8.5)});
+  const TautPathBounds bounds(p.instance, p.movers(), std::vector<double>(2, kForever), p.never);
+  p.state.follow(1, p.state.plan_alone(1, p.never));
+  p.state.follow(0, *p.state.plan(0, kExact, p.never).trajectory);
+  NeighbourhoodOptions options;
+  options.min_gain_share = 0.9;
+  EXPECT_FALSE(plan_neighbourhood(p.state, {0, 1}, bounds, options, p.never).change);
+  options.most_loss = 10.0;
+  const NeighbourhoodResult result = plan_neighbourhood(p.state, {0, 1}, bounds, options, p.never);
+  ASSERT_TRUE(result.change);
+  EXPECT_LT(result.change->gain, 0.0);
+  EXPECT_GT(result.change->gain, -10.0);
+}
+
+TEST(PlanNeighbourhood, KeepsAllCostsBelowTheLimit) {
+  Crossing p;
+  NeighbourhoodOptions options;
+  options.gain = NeighbourhoodOptions::Gain::first;
+  options.cost_limit = 9.2;
+  const NeighbourhoodResult result = p.plan_again({0, 1}, options);
+  ASSERT_TRUE(result.change);
+  for (const Change::Part& part : result.change->parts) EXPECT_LT(part.trajectory.cost, 9.2);
+  options.cost_limit = 8.0;  // the lower bound of robot 0
+  EXPECT_FALSE(p.plan_again({0, 1}, options).change);
+}
+
+TEST(PlanNeighbourhood, LeavesTheStateUnchanged) {
+  Crossing p;
+  const auto text = [&] {
+    Plan plan;
+    plan.plans = plans_of(p.state);
+    return exact_text(plan);
+  };
+  const std::string before = text();
+  p.plan_again({0, 1, 2});
+  plan_neighbourhood(p.state, {0, 1, 2}, p.bounds, {}, met());
+  EXPECT_EQ(text(), before);
+  EXPECT_EQ(p.state.conflicting_robots(2, through({{4.5, 0.5}, {4.5, 8.5}}, 1.0)),
+            std::vector<std::size_t>{1})
+      << "reservations as well";
+}
+
 }  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -1,4 +1,4 @@
-#include "core/lns/adaptive_choice.h"
+#include "core/lns/iterations.h"
 
 #include <gtest/gtest.h>
 

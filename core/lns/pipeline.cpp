@@ -1,4 +1,4 @@
-#include "core/lns/workspace_pool.h"
+#include "core/lns/pipeline.h"
 
 #include <algorithm>
 #include <new>
