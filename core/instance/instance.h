@@ -47,7 +47,7 @@ struct Motion {
   }
 };
 
-/// How the robot moves under these options while it carries this load.
+/// Returns how the robot moves under these options while it carries this load.
 inline Motion motion_of(const Robot& robot, const PlanOptions& options, const Load& load) {
   return {load.radius + options.inflation,
           load.linear_speed,
@@ -59,10 +59,11 @@ inline Motion motion_of(const Robot& robot, const PlanOptions& options, const Lo
           robot.angular_inertia()};
 }
 
-/// By robot, metres between the vertices of the lattice that it is planned on: as the options ask. By
-/// default, the map's resolution; where that is at most a quarter of the smallest radius that the robot ever
-/// has, its largest odd multiple up to this radius, so that vertices are centres of cells as well. So robots
-/// of like radius share a lattice, and that of no robot depends on others.
+/// Returns the spacing of the lattice that each robot is planned on, metres, by robot: that of the options.
+/// By default, it is the map's resolution; where that is at most a quarter of the smallest radius that the
+/// robot ever has, it is the largest odd multiple of the resolution up to this radius, so that vertices are
+/// centres of cells as well. Robots of like radius share a lattice, and no robot's lattice depends on other
+/// robots.
 std::vector<double> lattice_spacings(const Problem& problem, const PlanOptions& options);
 
 /// A problem with its options, the lattices and the static feasibility of moves: what stays the same while
@@ -79,12 +80,12 @@ class Instance {
   const Problem& problem() const { return problem_; }
   const PlanOptions& options() const { return options_; }
   const Robot& robot(std::size_t index) const { return problem_.robots()[index]; }
-  /// While it carries what it does when its plan begins.
+  /// The motion of the robot with the load that it has when its plan begins.
   const Motion& motion(std::size_t index) const { return stages_[index].front().motion; }
-  /// On the way to a goal that is left, by its position in Itinerary::goals; one past the last goal: at rest
-  /// there for good.
+  /// The motion in a stage: on the way to a goal that is left, by the goal's position in Itinerary::goals;
+  /// or, one past the last goal, at rest there for good.
   const Motion& motion(std::size_t index, std::size_t stage) const { return stage_of(index, stage).motion; }
-  /// Its radius then, metres; neither inflation nor vicinity included.
+  /// The radius of the robot in a stage, metres; neither inflation nor vicinity included.
   double radius(std::size_t index, std::size_t stage) const { return stage_of(index, stage).load.radius; }
   /// Whether the robot has several loads on the way to the goals that are left, or after the last one.
   bool changes_load(std::size_t index) const { return stages_[index].size() > 1; }
@@ -92,9 +93,9 @@ class Instance {
   LargestDisk largest_disk(std::size_t index) const;
   /// The motion with the smallest radius on the way to the goals that are left.
   const Motion& slimmest_motion(std::size_t index) const;
-  /// Contiguous segments of a trajectory from t = 0 on, with its radii.
+  /// Returns the contiguous segments of a trajectory from t = 0 on, with the radius on each.
   std::vector<SizedSegment> segments(std::size_t index, const Trajectory& trajectory) const;
-  /// Its load then.
+  /// The load of the robot in a stage.
   const Load& load(std::size_t index, std::size_t stage) const { return stage_of(index, stage).load; }
   /// The zones that limit how the robot drives in a stage; null if there are none.
   const DriveZones* drive_zones(std::size_t index, std::size_t stage = 0) const {
@@ -104,7 +105,7 @@ class Instance {
   const Itinerary& itinerary(std::size_t index) const { return itineraries_[index]; }
   /// The lattice that the robot is planned on.
   const Lattice& lattice(std::size_t index) const { return *lattices_[index]; }
-  /// Past walls alone, and past the zones that are blocked for a robot, too.
+  /// The line of sight past walls alone, and the one past the zones that are blocked for a robot, too.
   const LineOfSight& sight() const { return problem_.map()->sight(); }
   const LineOfSight& sight(std::size_t index) const { return problem_.map_of(index)->sight(); }
   /// The pairs of robots that begin or end too near to each other.

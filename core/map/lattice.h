@@ -102,9 +102,9 @@ class Lattice {
   std::vector<Displacement> first_quadrant_;
 };
 
-/// Metres between the vertices of the lattice for a robot of this radius: the map's resolution; where that is
-/// at most a quarter of the radius, its largest odd multiple up to this radius, so that vertices are centres
-/// of cells as well.
+/// Returns the default spacing of the lattice for a robot of this radius, metres: the map's resolution; where
+/// that is at most a quarter of the radius, its largest odd multiple up to the radius, so that vertices are
+/// centres of cells as well.
 double default_lattice_spacing(const OccupancyGrid& grid, double radius);
 
 /// The vertices that refine a lattice for robots of one radius, where the way past the obstacles is too

@@ -369,7 +369,7 @@ constexpr double kVertexDistance = 1.5;
 /// The first nodes are within this many pitches of the position.
 constexpr double kFirstNodes = 2.0;
 
-/// A brushfire over nodes of the fine lattice.
+/// Spreads over the nodes of the fine lattice until a vertex of the lattice is in sight.
 class Brushfire {
  public:
   Brushfire(const Position& from, double radius, const FineLattice& nodes, const Lattice& lattice,
@@ -440,7 +440,7 @@ class Brushfire {
            });
   }
 
-  /// Only those that are needed to see the next one.
+  /// Returns the places up to this one, without those that can be skipped in sight of the next one.
   std::vector<Position> way_to(int last) const {
     std::vector<Position> all;
     for (int k = last; k >= 0; k = reached_[static_cast<std::size_t>(k)].before) {

@@ -31,9 +31,10 @@ struct FineLattice {
 std::optional<FinerVertices> refine(const OccupancyGrid& grid, const LineOfSight& sight,
                                     const Lattice& lattice, double radius, const StopCondition& stop);
 
-/// For a position from which no vertex is in sight: places on the way over the nodes of a fine lattice to one
-/// from where a vertex is, each in sight of the one before. None if there is no such way nearby. `radius` of
-/// the robot at the position and near it, at most that elsewhere.
+/// Returns a way from a position from which no vertex is in sight to a node of the fine lattice from which
+/// one is. It goes over nodes of the fine lattice, and each place on it is in sight of the one before. Empty
+/// if there is no such way nearby. `radius` is that of the robot at the position; up to the first place the
+/// smaller one of it and that of `nodes` counts, then that of `nodes`.
 std::vector<Position> way_to_lattice(const Position& from, double radius, const FineLattice& nodes,
                                      const Lattice& lattice, const FreeSpace& space);
 

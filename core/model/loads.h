@@ -39,7 +39,7 @@ struct LargestDisk {
   double pair_radius_with(double smaller) const { return pair_radius - (radius - smaller); }
 };
 
-/// A robot while it carries the same.
+/// What matters about a robot while its load does not change.
 struct Load {
   double radius = 0.0;               // metres
   double linear_speed = 0.0;         // metres per second
@@ -61,6 +61,7 @@ Load first_load(const Robot& robot);
 Load load_after(const Load& before, const Goal& goal);
 /// Returns the loads by the number of goals served: as many as the robot has goals, and one more.
 std::vector<Load> loads_of(const Robot& robot);
+
 /// The load of a robot that executes its actions one after the other, contiguous from t = 0 in its start.
 class LoadOnTheWay {
  public:

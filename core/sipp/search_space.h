@@ -33,12 +33,12 @@ namespace fleetplan::core {
 /// A robot whose load changes has one view for each of its loads.
 class Vertices {
  public:
-  /// With the load of the robot in a stage: on the way to one of the goals that are left, or at rest at the
-  /// last one. See Instance::motion.
+  /// The view with the load of the robot in a stage: on the way to one of the goals that are left, or at rest
+  /// at the last one. See Instance::motion.
   /// If `stop` is met first, the view is not finished() and must not be used.
   Vertices(const Instance& instance, std::size_t robot, std::size_t stage, const StopCondition& stop);
-  /// With one goal and without a start, until begin_at() gives one: for robots that are alike, one after the
-  /// other, on their ways to the same goal.
+  /// The view with one goal and without a start, until begin_at() gives one: for robots that are alike, one
+  /// after the other, on their ways to the same goal.
   Vertices(const Instance& instance, std::size_t robot, const Goal& goal);
   /// Replaces the start by the place where the plan of this robot begins. The vertices from first_late() on
   /// are those of the start.
