@@ -94,13 +94,14 @@ class StepGraph {
       if (vertex % kVerticesBetweenStops == 0 && stop.met()) break;
       if (taken_[static_cast<std::size_t>(vertex)]) continue;
       std::uint32_t mask = space.steps_from(vertex);
-      std::size_t count = 0;
       // Bounded: the steps of a lattice, at most 32.
       for (std::size_t k = 0; mask != 0; ++k, mask >>= 1) {
         const Lattice::Step step = lattice.steps()[k];
         if ((mask & 1U) == 0 || std::abs(step.columns) + std::abs(step.rows) != 1) continue;
         const int next = vertex + step.rows * lattice.columns() + step.columns;
-        if (!taken_[static_cast<std::size_t>(next)]) all[static_cast<std::size_t>(vertex)][count++] = next;
+        if (taken_[static_cast<std::size_t>(next)]) continue;
+        const std::size_t direction = (step.rows != 0 ? 2U : 0U) + (step.rows + step.columns < 0 ? 1U : 0U);
+        all[static_cast<std::size_t>(vertex)][direction] = next;
       }
     }
     return all;
