@@ -86,10 +86,11 @@ class StepDistances {
 
 /// Costs by which robots go with the traffic: each step costs more, the more of the robots that would pass
 /// there alone go the opposite way. So most corridors get a direction (after Chen et al., AAAI 2024).
-StepCosts against_traffic(const StepProblem& problem, const StepDistances& alone, const StepCosts& even) {
+/// Unfinished if `stop` is met.
+StepCosts against_traffic(const StepProblem& problem, const StepDistances& alone, const StepCosts& even,
+                          const StopCondition& stop) {
   std::vector<std::array<std::uint32_t, 4>> passing(even.size(), {0, 0, 0, 0});
-  // Bounded: the ways of all robots; kMostDistances in all.
-  for (std::size_t robot = 0; robot < problem.movers.size(); ++robot) {
+  for (std::size_t robot = 0; robot < problem.movers.size() && !stop.met(); ++robot) {
     const StepProblem::Mover& mover = problem.movers[robot];
     for (int here = mover.start; here != mover.goal;) {
       const auto& next = problem.graphs[mover.graph][static_cast<std::size_t>(here)];
@@ -106,6 +107,7 @@ StepCosts against_traffic(const StepProblem& problem, const StepDistances& alone
   }
   StepCosts costs = even;
   for (const StepProblem::Neighbours& graph : problem.graphs) {
+    if (stop.met()) break;
     for (std::size_t vertex = 0; vertex < graph.size(); ++vertex) {
       for (std::size_t direction = 0; direction < 4; ++direction) {
         const int next = graph[vertex][direction];
@@ -132,15 +134,16 @@ struct Constraint {
 /// the one that is there go away first, as if that had its priority.
 class NextConfiguration {
  public:
-  NextConfiguration(const StepProblem& problem, Random& random)
+  NextConfiguration(const StepProblem& problem, Random& random, const StopCondition& stop)
       : problem_(problem),
+        stop_(stop),
         random_(random),
         here_(problem.graphs.front().size(), kNobody),
         next_(problem.graphs.front().size(), kNobody),
         is_asked_(problem.movers.size(), false) {}
 
-  /// By these distances robots choose where to go. None if the constraint allows none, or if PIBT finds none
-  /// with it.
+  /// By these distances robots choose where to go. None if the constraint allows none, if PIBT finds none
+  /// with it, or if the stop condition is met.
   std::optional<Configuration> make(const Configuration& from, const std::vector<std::size_t>& order,
                                     const Constraint* constraint, const StepDistances& distances) {
     from_ = &from;
@@ -172,7 +175,7 @@ class NextConfiguration {
 
   bool move_all(const std::vector<std::size_t>& order) {
     for (const std::size_t robot : order) {
-      if (to_[robot] == StepProblem::kNone && !move(robot)) return false;
+      if (stop_.met() || (to_[robot] == StepProblem::kNone && !move(robot))) return false;
     }
     return true;
   }
@@ -342,6 +345,7 @@ class NextConfiguration {
   }
 
   const StepProblem& problem_;
+  const StopCondition& stop_;
   Random& random_;
   const Configuration* from_ = nullptr;
   const StepDistances* distances_ = nullptr;
@@ -376,7 +380,7 @@ class Lacam {
         with_traffic_(with_traffic),
         random_(random),
         stop_(stop),
-        next_(problem, random) {
+        next_(problem, random, stop) {
     for (std::size_t i = 0; i < problem.movers.size(); ++i) {
       goals_.push_back(problem.movers[i].goal);
       longest_ = std::max<std::size_t>(longest_, alone.of(i, problem.movers[i].start) / kStep);
@@ -481,7 +485,7 @@ std::optional<std::vector<Configuration>> plan_steps(const StepProblem& problem,
   StepDistances alone;
   StepDistances with_traffic;
   if (!alone.find(problem, even, stop)) return std::nullopt;
-  if (!with_traffic.find(problem, against_traffic(problem, alone, even), stop)) return std::nullopt;
+  if (!with_traffic.find(problem, against_traffic(problem, alone, even, stop), stop)) return std::nullopt;
   for (int k = 0; k < kMostTries && !stop.met(); ++k) {
     auto plan = Lacam(problem, alone, with_traffic, random, stop).run();
     if (plan) return plan;
