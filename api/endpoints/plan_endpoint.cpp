@@ -41,28 +41,39 @@ Reply rejected(PlanOutcome outcome, const core::VerifyReport& report, const std:
   return reply;
 }
 
+/// The time to check a plan and write the answer: a twentieth of the budget, but at most what as many robots
+/// need whose plans have many moves, as in crowds.
+std::chrono::nanoseconds for_answer(const PlanRequest& request) {
+  constexpr std::chrono::milliseconds kLeast{25};
+  constexpr std::chrono::microseconds kForARobot{400};
+  const auto robots = static_cast<std::int64_t>(request.problem.robots().size());
+  const std::chrono::nanoseconds most = std::max<std::chrono::nanoseconds>(kLeast, robots * kForARobot);
+  return std::min<std::chrono::nanoseconds>(request.budget / 20, most);
+}
+
 /// Returns when to give up the check: soon after the end of planning, but not before it has had the CPU time
-/// that a thousand robots need. A plan that was cancelled, as the service drains, may still be checked
-/// quickly.
-core::StopCondition check_stop(const core::StopCondition& planning) {
-  using Clock = core::StopCondition::Clock;
+/// that a thousand robots with few moves need. A plan that was cancelled, as the service drains, may still be
+/// checked quickly.
+core::StopCondition check_stop(const core::StopCondition& planning, const PlanRequest& request) {
   constexpr std::chrono::milliseconds kMostAfterPlanning{90};
   constexpr std::chrono::milliseconds kLeastCpu{25};
   if (planning.cancelled()) {
-    return core::StopCondition::even_if_cancelled(Clock::now() + kMostAfterPlanning / 2);
+    return core::StopCondition::even_if_cancelled(Stages::Clock::now() + kMostAfterPlanning / 2);
   }
-  if (planning.deadline() == Clock::time_point::max()) return planning;
-  return planning.until(planning.deadline() + kMostAfterPlanning).with_cpu_time(kLeastCpu);
+  if (planning.deadline() == Stages::Clock::time_point::max()) return planning;
+  const auto most = std::max<std::chrono::nanoseconds>(kMostAfterPlanning, for_answer(request));
+  return planning.until(planning.deadline() + most).with_cpu_time(kLeastCpu);
 }
 
 /// Returns when to give up the check of an answer in which no robot moves, if there is no other answer: with
 /// the budget, and not too soon after it. The time for reading the request tells how large it is and how busy
 /// the machine.
-core::StopCondition last_stop(const Stages& stages, const core::StopCondition& planning) {
+core::StopCondition last_stop(const Stages& stages, const core::StopCondition& planning,
+                              const PlanRequest& request) {
   constexpr Stages::Clock::duration kLeast = std::chrono::milliseconds(200);
   const auto patience = Stages::Clock::now() + std::max(kLeast, stages.parsed - stages.received);
   if (planning.cancelled()) return core::StopCondition::even_if_cancelled(patience).despite_memory();
-  const core::StopCondition check = check_stop(planning);
+  const core::StopCondition check = check_stop(planning, request);
   return planning.until(std::max(patience, check.deadline())).despite_memory();
 }
 
@@ -183,10 +194,10 @@ Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std:
     return moves(robot, request.problem);
   });
   std::optional<core::VerifyReport> report;
-  if (any_moves && plan.unavoidable_known) report = check(plan, check_stop(stop).despite_memory());
+  if (any_moves && plan.unavoidable_known) report = check(plan, check_stop(stop, request).despite_memory());
   core::Plan less;
   const bool is_whole = report || (!any_moves && plan.unavoidable_known);
-  const core::StopCondition last = last_stop(stages, stop);
+  const core::StopCondition last = last_stop(stages, stop, request);
   if (!is_whole) less = without_moves(plan, request.problem, last);
   const core::Plan& answered = is_whole ? plan : less;
   if (!report && answered.unavoidable_known) report = check(answered, last);
@@ -226,13 +237,11 @@ Clock::duration for_dependencies(const PlanRequest& request) {
   return std::min<Clock::duration>(request.budget / 4, robots * kForARobot);
 }
 
-/// Returns the part of the budget after planning, to check the plan and write the answer: a twentieth of the
-/// budget, but at most what a thousand robots need; or a quarter of what reading the request took, which
-/// tells how large it is and how busy the machine. The unavoidable collisions of robots with moving
-/// obstacles, and their check, take up to half as long as reading them; the check of a very large map takes
-/// up to as long.
+/// Returns the part of the budget after planning, to check the plan and write the answer: see for_answer();
+/// or a quarter of what reading the request took, which tells how large it is and how busy the machine. The
+/// unavoidable collisions of robots with moving obstacles, and their check, take up to half as long as
+/// reading them; the check of a very large map takes up to as long.
 Clock::duration kept_for_answer(const PlanRequest& request, Clock::duration reading) {
-  constexpr Clock::duration kMostForTheAnswer = std::chrono::milliseconds(25);
   constexpr int kManyCells = 4'000'000;
   const std::chrono::nanoseconds budget = request.budget;
   const core::OccupancyGrid& grid = request.problem.grid();
@@ -241,8 +250,7 @@ Clock::duration kept_for_answer(const PlanRequest& request, Clock::duration read
     if (!request.problem.obstacles().empty()) return std::min<Clock::duration>(budget / 2, reading / 2);
     return std::min<Clock::duration>(budget / 4, reading / 4);
   };
-  return for_dependencies(request) +
-         std::max(std::min<Clock::duration>(budget / 20, kMostForTheAnswer), for_the_check());
+  return for_dependencies(request) + std::max(for_answer(request), for_the_check());
 }
 
 /// Returns what the request needs of the server. A few robots on a small map take milliseconds, as a rule.
