@@ -33,7 +33,27 @@ void order_for_horizon(const std::vector<Robot>& all, PriorityOrder& order) {
   if (oldest != end && all[*oldest].goal_age > 0.0) std::rotate(order.begin(), oldest, oldest + 1);
 }
 
+/// Along straight lines from goal to goal, metres.
+double distance_to_goals(const Robot& robot) {
+  double distance = 0.0;
+  Position from = robot.committed_end().position;
+  for (const Goal& goal : robot.via) {
+    distance += (goal.position - from).norm();
+    from = goal.position;
+  }
+  return distance + (robot.goal->position - from).norm();
+}
+
 }  // namespace
+
+PriorityOrder order_by_time(const Instance& instance, std::vector<std::size_t> robots) {
+  const auto key = [&](std::size_t i) {
+    const Robot& robot = instance.robot(i);
+    return distance_to_goals(robot) / robot.linear_speed / robot.weight;
+  };
+  std::stable_sort(robots.begin(), robots.end(), [&](auto a, auto b) { return key(a) < key(b); });
+  return robots;
+}
 
 PriorityOrder initial_order(const Instance& instance, std::vector<std::size_t> robots, Random& random) {
   return initial_order(instance.problem().robots(), instance.options(), std::move(robots), random);
@@ -42,14 +62,7 @@ PriorityOrder initial_order(const Instance& instance, std::vector<std::size_t> r
 PriorityOrder initial_order(const std::vector<Robot>& all, const PlanOptions& options,
                             std::vector<std::size_t> robots, Random& random) {
   const auto distance_of = [&](std::size_t i) {
-    double distance = 0.0;
-    Position from = all[i].committed_end().position;
-    for (const Goal& goal : all[i].via) {
-      distance += (goal.position - from).norm();
-      from = goal.position;
-    }
-    distance += (all[i].goal->position - from).norm();
-    return distance / std::pow(all[i].linear_speed, kSpeedWeight);
+    return distance_to_goals(all[i]) / std::pow(all[i].linear_speed, kSpeedWeight);
   };
   switch (options.priority) {
     case PlanOptions::Priority::shortest_first:

@@ -21,6 +21,9 @@ PriorityOrder initial_order(const Instance& instance, std::vector<std::size_t> r
 PriorityOrder initial_order(const std::vector<Robot>& all, const PlanOptions& options,
                             std::vector<std::size_t> robots, Random& random);
 
+/// Returns the robots by the time that each takes alone along a straight line, heavy ones sooner.
+PriorityOrder order_by_time(const Instance& instance, std::vector<std::size_t> robots);
+
 /// Whether the robots of the order differ in size, inflation and vicinity included.
 bool differ_in_size(const Instance& instance, const PriorityOrder& order);
 

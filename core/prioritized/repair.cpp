@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/model/objective_share.h"
 #include "core/prioritized/ejection_search.h"
 #include "core/prioritized/lattice_steps.h"
 #include "core/prioritized/orderings.h"
@@ -405,6 +406,40 @@ PriorityOrder larger_first(const Instance& instance, PriorityOrder order) {
   return order;
 }
 
+/// The failures of another first plan after which it is given up, and its share of the time.
+constexpr std::int64_t kMaxFailuresByTime = 60;
+constexpr double kShareByTime = 0.5;
+
+/// The sum of the shares of all robots in the objective; none if one of them has no trajectory, or if it is
+/// no sum.
+std::optional<double> objective_of(const PlanState& state, const PriorityOrder& order) {
+  const PlanOptions::Objective objective = state.instance().options().objective;
+  if (objective == PlanOptions::Objective::makespan) return std::nullopt;
+  double sum = 0.0;
+  for (const std::size_t robot : order) {
+    if (!state.trajectory(robot)) return std::nullopt;
+    sum += share_of(state.instance().robot(robot), objective, *state.trajectory(robot));
+  }
+  return sum;
+}
+
+/// Plans everything anew with those first who arrive first. Such plans take several times the effort, but
+/// small fast robots do not wait for large slow ones. Improvement begins with the better one of the two.
+void plan_by_time_if_better(PlanState& state, const PriorityOrder& order, OrderingResult& result,
+                            Random& random, const StopCondition& stop, ProgressReport& progress) {
+  const std::optional<double> objective = objective_of(state, order);
+  if (!objective || stop.met()) return;
+  const PlanState::Reservations before = state.reservations();
+  const StopCondition part = after_share(stop, kShareByTime);
+  for (const std::size_t robot : order) state.remove(robot);
+  const auto other =
+      repair(state, order_by_time(state.instance(), order), kMaxFailuresByTime, random, part, progress);
+  result.attempts += other ? other->attempts : kMaxFailuresByTime;
+  result.cut_off = part.met();
+  const std::optional<double> others = objective_of(state, order);
+  if (!other || !others || *others >= *objective) state.restore(before);
+}
+
 }  // namespace
 
 std::optional<OrderingResult> repair(PlanState& state, const PriorityOrder& order, std::int64_t max_failures,
@@ -434,6 +469,9 @@ OrderingResult repair_or_restart(PlanState& state, const PriorityOrder& order, R
   const PriorityOrder second = larger_first(state.instance(), order);
   OrderingResult result = *repair(state, second, kAnyNumber, random, stop, progress, on_stop);
   result.attempts += kMaxFailures;
+  if (state.instance().options().mode == PlanOptions::Mode::anytime) {
+    plan_by_time_if_better(state, order, result, random, stop, progress);
+  }
   return result;
 }
 
