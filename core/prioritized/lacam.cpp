@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <deque>
 #include <limits>
-#include <memory>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
@@ -12,12 +11,17 @@
 namespace fleetplan::core {
 namespace {
 
-/// The most places of robots in all configurations of a search together, and the most constraints: 64 MB, 48
-/// MB. A thousand robots in corridors take a tenth of them.
+/// The most configurations of a search, places of robots in all of them together, and constraints: 40, 64 and
+/// 24 MB. A thousand robots in corridors take a tenth of the places.
+constexpr std::size_t kMostNodes = 100'000;
 constexpr std::size_t kMostPlaces = 4'000'000;
 constexpr std::size_t kMostConstraints = 1'000'000;
-/// How often the search begins again after that, with other random numbers.
+/// How often the search is tried, each time with other random numbers.
 constexpr int kMostTries = 4;
+/// Vertices between two checks of the stop condition.
+constexpr int kVerticesPerStop = 4096;
+/// The most vertices of a corridor that are looked at for robots that have to pass each other.
+constexpr int kLongestCorridor = 256;
 
 /// By vertex and direction, the cost of a step.
 using StepCosts = std::vector<std::array<std::uint8_t, 4>>;
@@ -40,7 +44,7 @@ class StepDistances {
     distances_.reserve(problem.movers.size());
     for (const StepProblem::Mover& mover : problem.movers) {
       if (stop.met()) return false;
-      distances_.push_back(to(mover.goal, problem.graphs[mover.graph], costs));
+      distances_.push_back(to(mover.goal, problem.graphs[mover.graph], costs, stop));
       if (distances_.back()[static_cast<std::size_t>(mover.start)] == kNoWay) return false;
     }
     return true;
@@ -52,15 +56,16 @@ class StepDistances {
 
  private:
   /// Dijkstra's search backwards, with a queue for each cost that is due (Dial, 1969).
-  std::vector<std::uint16_t> to(int goal, const StepProblem::Neighbours& neighbours, const StepCosts& costs) {
+  std::vector<std::uint16_t> to(int goal, const StepProblem::Neighbours& neighbours, const StepCosts& costs,
+                                const StopCondition& stop) {
+    StopStride stride(stop, kVerticesPerStop);
     std::vector<std::uint16_t> distance(neighbours.size(), kNoWay);
     distance[static_cast<std::size_t>(goal)] = 0;
     due_[0].push_back(goal);
     std::size_t open = 1;
-    // Bounded: each vertex is queued at most once for each way that leads there; kMostDistances in all.
     for (std::size_t cost = 0; open > 0 && cost < kNoWay; ++cost) {
       std::vector<int>& queue = due_[cost % due_.size()];
-      for (std::size_t k = 0; k < queue.size(); ++k) {
+      for (std::size_t k = 0; k < queue.size() && !stride.met_at_step(); ++k) {
         const auto here = static_cast<std::size_t>(queue[k]);
         --open;
         if (distance[here] != cost) continue;
@@ -75,6 +80,7 @@ class StepDistances {
         }
       }
       queue.clear();
+      if (stride.met()) break;
     }
     for (std::vector<int>& queue : due_) queue.clear();
     return distance;
@@ -107,8 +113,8 @@ StepCosts against_traffic(const StepProblem& problem, const StepDistances& alone
   }
   StepCosts costs = even;
   for (const StepProblem::Neighbours& graph : problem.graphs) {
-    if (stop.met()) break;
     for (std::size_t vertex = 0; vertex < graph.size(); ++vertex) {
+      if (vertex % kVerticesPerStop == 0 && stop.met()) break;
       for (std::size_t direction = 0; direction < 4; ++direction) {
         const int next = graph[vertex][direction];
         if (next == StepProblem::kNone) continue;
@@ -122,11 +128,12 @@ StepCosts against_traffic(const StepProblem& problem, const StepDistances& alone
   return costs;
 }
 
-/// A robot that has to be at a vertex in the next configuration, and the others that have to be somewhere.
+/// A robot that has to be at a vertex in the next configuration, together with those of the constraint
+/// before. The first one of a configuration binds nobody.
 struct Constraint {
-  const Constraint* before = nullptr;
-  std::size_t depth = 0;  // the number of robots that are bound
-  std::size_t robot = 0;
+  std::size_t before = 0;   // its place among the constraints of the configuration
+  std::uint32_t depth = 0;  // the number of robots that are bound
+  std::uint32_t robot = 0;
   int vertex = StepProblem::kNone;
 };
 
@@ -145,12 +152,13 @@ class NextConfiguration {
   /// By these distances robots choose where to go. None if the constraint allows none, if PIBT finds none
   /// with it, or if the stop condition is met.
   std::optional<Configuration> make(const Configuration& from, const std::vector<std::size_t>& order,
-                                    const Constraint* constraint, const StepDistances& distances) {
+                                    const std::vector<Constraint>& constraints, std::size_t constraint,
+                                    const StepDistances& distances) {
     from_ = &from;
     distances_ = &distances;
     to_.assign(from.size(), StepProblem::kNone);
     for (std::size_t i = 0; i < from.size(); ++i) here_[index(from[i])] = static_cast<std::int32_t>(i);
-    const bool made = bind(constraint) && move_all(order) && !has_cycle();
+    const bool made = bind(constraints, constraint) && move_all(order) && !has_cycle();
     for (std::size_t i = 0; i < from.size(); ++i) {
       here_[index(from[i])] = kNobody;
       if (to_[i] != StepProblem::kNone) next_[index(to_[i])] = kNobody;
@@ -163,12 +171,11 @@ class NextConfiguration {
   static constexpr std::int32_t kNobody = -1;
   static std::size_t index(int vertex) { return static_cast<std::size_t>(vertex); }
 
-  bool bind(const Constraint* constraint) {
-    for (; constraint != nullptr && constraint->vertex != StepProblem::kNone;
-         constraint = constraint->before) {
-      if (next_[index(constraint->vertex)] != kNobody) return false;
-      if (exchanges(constraint->robot, constraint->vertex)) return false;
-      set(constraint->robot, constraint->vertex);
+  bool bind(const std::vector<Constraint>& constraints, std::size_t last) {
+    for (std::size_t k = last; constraints[k].vertex != StepProblem::kNone; k = constraints[k].before) {
+      const Constraint& bound = constraints[k];
+      if (next_[index(bound.vertex)] != kNobody || exchanges(bound.robot, bound.vertex)) return false;
+      set(bound.robot, bound.vertex);
     }
     return true;
   }
@@ -247,9 +254,11 @@ class NextConfiguration {
     return false;
   }
 
-  /// Lets a robot follow to where another one leaves.
+  /// Lets a robot follow to where another one leaves, if it fits there.
   void pull(std::size_t robot, int vertex) {
-    if (to_[robot] == StepProblem::kNone && next_[index(vertex)] == kNobody) set(robot, vertex);
+    const auto& next = neighbours(robot, (*from_)[robot]);
+    if (to_[robot] != StepProblem::kNone || next_[index(vertex)] != kNobody) return;
+    if (std::find(next.begin(), next.end(), vertex) != next.end()) set(robot, vertex);
   }
 
   const std::array<int, 4>& neighbours(std::size_t robot, int vertex) const {
@@ -302,10 +311,10 @@ class NextConfiguration {
   /// Whether `pusher`, which drives `puller` before it along a corridor, wants to go farther than that ends,
   /// and `puller` wants to come back.
   bool has_to_pass(std::size_t pusher, std::size_t puller, int at, int ahead) const {
-    // Bounded: the vertices of one corridor, which are ever nearer to the goal.
-    while (distances_->of(pusher, ahead) < distances_->of(pusher, at)) {
+    // Bounded: kLongestCorridor.
+    for (int k = 0; distances_->of(pusher, ahead) < distances_->of(pusher, at); ++k) {
       const WaysOn ways = ways_on(pusher, ahead, at);
-      if (ways.count >= 2) return false;
+      if (ways.count >= 2 || k == kLongestCorridor) return false;
       if (ways.count == 0) break;
       at = std::exchange(ahead, ways.last);
     }
@@ -316,8 +325,8 @@ class NextConfiguration {
   /// Whether a corridor from `from` through `ahead` leads to a crossing, where two robots can change places.
   bool may_pass(std::size_t robot, int from, int ahead) const {
     int back = from;
-    // Bounded: the vertices of one corridor, until it comes back to where it began.
-    while (ahead != from) {
+    // Bounded: kLongestCorridor.
+    for (int k = 0; ahead != from && k < kLongestCorridor; ++k) {
       const WaysOn ways = ways_on(robot, ahead, back);
       if (ways.count >= 2) return true;
       if (ways.count == 0) return false;
@@ -360,7 +369,7 @@ struct Node {
   Configuration at;
   std::vector<std::int32_t> waited;  // by robot: steps since it was at its goal
   std::vector<std::size_t> order;    // of PIBT: those that have waited longest first
-  std::deque<Constraint> made;       // constraints; addresses stay
+  std::vector<Constraint> made;      // constraints
   std::size_t next = 0;              // of `made`
   const Node* before = nullptr;
   std::size_t steps = 0;  // from the starts
@@ -398,16 +407,16 @@ class Lacam {
         open_.pop_back();
         continue;
       }
-      const Constraint& constraint = node.made[node.next++];
+      const std::size_t constraint = node.next++;
       bind_one_more(node, constraint);
       // In the end, those who still wait for each other have to pass against the traffic.
       const StepDistances& distances = node.steps < longest_ ? with_traffic_ : alone_;
-      std::optional<Configuration> made = next_.make(node.at, node.order, &constraint, distances);
+      std::optional<Configuration> made = next_.make(node.at, node.order, node.made, constraint, distances);
       if (!made) continue;
       const auto known = known_.find(bytes_of(*made));
       if (known != known_.end()) {
         open_.push_back(known->second);
-      } else if (nodes_.size() * problem_.movers.size() >= kMostPlaces) {
+      } else if (nodes_.size() >= kMostNodes || nodes_.size() * problem_.movers.size() >= kMostPlaces) {
         return std::nullopt;
       } else {
         add(std::move(*made), &node);
@@ -415,6 +424,9 @@ class Lacam {
     }
     return std::nullopt;
   }
+
+  /// Whether the search has ended because there is no plan.
+  bool has_no_plan() const { return open_.empty(); }
 
  private:
   void add(Configuration at, const Node* before) {
@@ -440,16 +452,19 @@ class Lacam {
   }
 
   /// Makes the constraints that bind the next robot, too: to its place or to a neighbour of it.
-  void bind_one_more(Node& node, const Constraint& constraint) {
-    if (constraint.depth == node.at.size()) return;
-    const std::size_t robot = node.order[constraint.depth];
+  void bind_one_more(Node& node, std::size_t constraint) {
+    const std::uint32_t depth = node.made[constraint].depth;
+    if (depth == node.at.size()) return;
+    const std::size_t robot = node.order[depth];
     const int here = node.at[robot];
     std::vector<int> vertices{here};
     for (const int vertex : problem_.graphs[problem_.movers[robot].graph][static_cast<std::size_t>(here)]) {
       if (vertex != StepProblem::kNone) vertices.push_back(vertex);
     }
     random_.shuffle(vertices);
-    for (const int vertex : vertices) node.made.push_back({&constraint, constraint.depth + 1, robot, vertex});
+    for (const int vertex : vertices) {
+      node.made.push_back({constraint, depth + 1, static_cast<std::uint32_t>(robot), vertex});
+    }
     constraints_ += vertices.size();
   }
 
@@ -485,10 +500,13 @@ std::optional<std::vector<Configuration>> plan_steps(const StepProblem& problem,
   StepDistances alone;
   StepDistances with_traffic;
   if (!alone.find(problem, even, stop)) return std::nullopt;
-  if (!with_traffic.find(problem, against_traffic(problem, alone, even, stop), stop)) return std::nullopt;
+  // Ways against all traffic may be too long to count.
+  const StepCosts costs = against_traffic(problem, alone, even, stop);
+  const StepDistances& first = with_traffic.find(problem, costs, stop) ? with_traffic : alone;
   for (int k = 0; k < kMostTries && !stop.met(); ++k) {
-    auto plan = Lacam(problem, alone, with_traffic, random, stop).run();
-    if (plan) return plan;
+    Lacam search(problem, alone, first, random, stop);
+    auto plan = search.run();
+    if (plan || search.has_no_plan()) return plan;
   }
   return std::nullopt;
 }

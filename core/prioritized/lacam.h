@@ -38,7 +38,8 @@ using Configuration = std::vector<int>;
 ///
 /// Returns the configurations from the starts to the goals: no two robots are at the same vertex, exchange
 /// their vertices in a step, or go round in a cycle in one step, each into the place of another one. None if
-/// there is no such plan, if `stop` is met first, or if the search takes too much memory in several tries.
+/// there is no such plan, if `stop` is met first, if the search takes too much memory in several tries, for
+/// too many robots and vertices, and if a way has more than 8000 steps.
 std::optional<std::vector<Configuration>> plan_steps(const StepProblem& problem, Random& random,
                                                      const StopCondition& stop);
 

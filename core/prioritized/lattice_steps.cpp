@@ -1,9 +1,10 @@
 #include "core/prioritized/lattice_steps.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <map>
+#include <new>
 #include <utility>
 
 #include "core/geometry/disk_motion.h"
@@ -13,17 +14,18 @@
 namespace fleetplan::core {
 namespace {
 
-/// A step passes all vertices but its two ends at a distance of one spacing, so nothing that is farther from
-/// a vertex than this share of it, half a step along and one to the side, is nearer to one of its steps.
+/// The root of 1.25: if two neighbouring vertices are farther than so many spacings from a point, no part of
+/// the step between them is nearer to it than one spacing.
 constexpr double kClear = 1.1181;
+/// The most vertices of all graphs together: 64 MB.
+constexpr std::size_t kMostVertices = 4'000'000;
 /// Vertices between two checks of the stop condition.
 constexpr int kVerticesBetweenStops = 1024;
 
 bool is_simple(const Instance& instance, std::size_t robot) {
   const Itinerary& itinerary = instance.itinerary(robot);
   return itinerary.goals.size() == 1 && !itinerary.goals.front().anywhere && itinerary.t_begin == 0.0 &&
-         instance.robot(robot).committed.empty() && !instance.changes_load(robot) &&
-         instance.drive_zones(robot) == nullptr;
+         !instance.changes_load(robot) && instance.drive_zones(robot) == nullptr;
 }
 
 /// Makes the graph of a fleet's steps, if it has one.
@@ -36,10 +38,14 @@ class StepGraph {
     const PlanOptions& options = instance_.options();
     if (robots_.empty() || !instance_.problem().obstacles().empty()) return std::nullopt;
     if (options.horizon || options.interval_margin > 0.0) return std::nullopt;
-    const Lattice& lattice = instance_.lattice(robots_.front());
-    if (robots_.size() * static_cast<std::size_t>(lattice.vertex_count()) > StepProblem::kMostDistances) {
-      return std::nullopt;
+    for (std::size_t i = 0; i < instance_.size(); ++i) {
+      if (!instance_.robot(i).committed.empty()) return std::nullopt;
     }
+    const Lattice& lattice = instance_.lattice(robots_.front());
+    const auto vertices = static_cast<std::size_t>(lattice.vertex_count());
+    if (robots_.size() * vertices > StepProblem::kMostDistances) return std::nullopt;
+    std::vector<bool> is_start(vertices, false);
+    std::vector<bool> is_goal(vertices, false);
     StepProblem problem;
     double widest = 0.0;
     for (const std::size_t robot : robots_) {
@@ -49,16 +55,22 @@ class StepGraph {
       const int start = lattice.vertex_at(itinerary.pose.position);
       const int goal = lattice.vertex_at(itinerary.goals.front().position);
       if (start < 0 || goal < 0) return std::nullopt;
+      if (is_start[static_cast<std::size_t>(start)] || is_goal[static_cast<std::size_t>(goal)]) {
+        return std::nullopt;
+      }
+      is_start[static_cast<std::size_t>(start)] = true;
+      is_goal[static_cast<std::size_t>(goal)] = true;
       problem.movers.push_back({0, start, goal});
     }
     find_standing(widest, lattice);
-    if (2.0 * widest > lattice.spacing() || 2.0 * widest_standing_ > lattice.spacing()) return std::nullopt;
+    if (2.0 * std::max(widest, widest_standing_) > lattice.spacing() + kSearchSlack) return std::nullopt;
     std::map<const FreeSpace*, std::size_t> known;
     for (std::size_t k = 0; k < robots_.size(); ++k) {
       FreeSpace& space = instance_.free_space(robots_[k]);
       const auto [entry, is_new] = known.emplace(&space, problem.graphs.size());
       problem.movers[k].graph = entry->second;
       if (!is_new) continue;
+      if (known.size() * vertices > kMostVertices) return std::nullopt;
       problem.graphs.push_back(neighbours(space, lattice, stop));
       if (stop.met()) return std::nullopt;
     }
@@ -78,8 +90,10 @@ class StepGraph {
       const Position& position = instance_.itinerary(i).pose.position;
       widest_standing_ = std::max(widest_standing_, instance_.largest_disk(i).pair_radius);
       const int vertex = lattice.vertex_at(position);
-      if (vertex >= 0) taken_[static_cast<std::size_t>(vertex)] = true;
-      if (vertex >= 0) continue;
+      if (vertex >= 0) {
+        taken_[static_cast<std::size_t>(vertex)] = true;
+        continue;
+      }
       for (const int near : lattice.vertices_near(position, kClear * lattice.spacing())) {
         taken_[static_cast<std::size_t>(near)] = true;
       }
@@ -114,10 +128,9 @@ class StepGraph {
   double widest_standing_ = 0.0;  // metres; the largest radius of all robots
 };
 
-/// When a robot that is at a vertex leaves it, and how.
+/// How a robot has come to a vertex, stayed there, and left it.
 struct Departure {
-  double arrival = 0.0;              // seconds; since when it has been there
-  std::vector<TimedSegment> phases;  // of the step away, and perhaps of a longer move
+  std::vector<TimedSegment> phases;  // contiguous; none if nobody has left it yet
   double radius = 0.0;               // metres, to other robots
 };
 
@@ -135,6 +148,7 @@ class TimedSteps {
       trajectories_.back().start = pose.position;
       headings_.push_back(pose.theta);
       arrivals_.push_back(0.0);
+      arriving_.emplace_back();
     }
   }
 
@@ -190,11 +204,9 @@ class TimedSteps {
     double t = vertex.others_until;  // they may be wider than the last one
     if (vertex.last.phases.empty()) return t;
     const double reach = radius + vertex.last.radius;
-    const Position& here = vertex.last.phases.front().path.from;
-    std::vector<TimedSegment> ahead{{{here, here}, vertex.last.arrival, vertex.last.phases.front().t_start}};
-    ahead.insert(ahead.end(), vertex.last.phases.begin(), vertex.last.phases.end());
+    const Position& here = step.back().path.to;
     // Bounded: at most three phases of each.
-    for (const TimedSegment& other : ahead) {
+    for (const TimedSegment& other : vertex.last.phases) {
       if (!(other.duration() > 0.0)) continue;
       const MovingDisk disk(other);
       const UnsafeInterval there = unsafe_interval(here, disk, reach);
@@ -227,7 +239,7 @@ class TimedSteps {
     } else {
       trajectory.moves.push_back({path, departure, arrival});
       if (motion.linear_inertia.is_limited) {
-        trajectory.profiles.push_back(
+        trajectory.profiles.emplace_back(
             fastest_profile(way.length, motion.linear_speed, motion.linear_inertia));
       }
     }
@@ -235,10 +247,13 @@ class TimedSteps {
     if (!left.last.phases.empty()) {
       left.others_until = std::max(left.others_until, left.last.phases.back().t_end);
     }
-    left.last = {arrivals_[k], parts(motion, path, duration), motion.pair_radius};
-    for (TimedSegment& part : left.last.phases) {
+    left.last = {std::move(arriving_[k]), motion.pair_radius};
+    left.last.phases.push_back({{path.from, path.from}, arrivals_[k], departure});
+    arriving_[k] = parts(motion, path, duration);
+    for (TimedSegment& part : arriving_[k]) {
       part.t_start += departure;
       part.t_end += departure;
+      left.last.phases.push_back(part);
     }
     headings_[k] = way.heading;
     arrivals_[k] = arrival;
@@ -251,7 +266,8 @@ class TimedSteps {
   std::vector<bool> is_done_;  // by robot: has been given its time in this step
   std::vector<Trajectory> trajectories_;
   std::vector<double> headings_;
-  std::vector<double> arrivals_;  // seconds
+  std::vector<double> arrivals_;                     // seconds
+  std::vector<std::vector<TimedSegment>> arriving_;  // the parts of the last step
 };
 
 }  // namespace
@@ -287,19 +303,21 @@ bool follow_steps(PlanState& state, const std::vector<std::size_t>& order,
   for (std::size_t i = 0; i < moves.size(); ++i) {
     if (!moves[i] && state.trajectory(i)) return false;  // its motion is not known to steps
   }
-  auto trajectories = plan_in_steps(state, robots, random, stop);
-  if (!trajectories) return false;
   const PlanState::Reservations before = state.reservations();
-  for (const std::size_t robot : robots) state.remove(robot);
-  for (std::size_t k = 0; k < robots.size(); ++k) {
-    Trajectory& trajectory = (*trajectories)[k];
-    if (stop.met() || !state.conflicting_robots(robots[k], trajectory).empty()) {
-      state.restore(before);
-      return false;
+  try {
+    auto trajectories = plan_in_steps(state, robots, random, stop);
+    if (!trajectories) return false;
+    for (const std::size_t robot : robots) state.remove(robot);
+    bool is_free = true;
+    for (std::size_t k = 0; k < robots.size() && is_free; ++k) {
+      is_free = !stop.met() && state.conflicting_robots(robots[k], (*trajectories)[k]).empty();
+      if (is_free) state.follow(robots[k], std::move((*trajectories)[k]));
     }
-    state.follow(robots[k], std::move(trajectory));
+    if (is_free) return true;
+  } catch (const std::bad_alloc&) {  // not granted to the job
   }
-  return true;
+  state.restore(before);
+  return false;
 }
 
 }  // namespace fleetplan::core

@@ -18,13 +18,17 @@ namespace fleetplan::core {
 ///
 /// None if there is no such plan, if `stop` is met, or if steps do not suffice to keep the fleet apart or to
 /// describe it: if two robots together are wider than the spacing of the lattice, if lattices differ, if a
-/// start or goal is off the lattice, if robots have several goals, commitments, loads or zones of their own
-/// to drive by, among moving obstacles, and with a horizon or an interval margin.
+/// start or goal is off the lattice or shared, if robots yield, or have several goals, loads or zones of
+/// their own to drive by, if any robot has a commitment, among moving obstacles, with a horizon or an
+/// interval margin, and for too many robots and vertices.
 ///
 /// Returns a trajectory for each of the robots, in their order.
 std::optional<std::vector<Trajectory>> plan_in_steps(const PlanState& state,
                                                      const std::vector<std::size_t>& robots, Random& random,
                                                      const StopCondition& stop);
+
+/// The share of the time that is left which steps may take before something else is tried.
+inline constexpr double kShareOfSteps = 0.4;
 
 /// Plans the robots of `order`, which no others but those that stay share the map with, in steps, except for
 /// the `hopeless` ones, which stay. Returns whether all of them follow the result, and nobody meets; if not,

@@ -73,8 +73,7 @@ class PrioritizedPlanning {
 
   PrioritizedResult run() {
     OrderingResult ordering = plan_in_orders();
-    if (solved_in_steps_) ordering.unsolved.clear();
-    result_.attempts = ordering.attempts;
+    result_.attempts += ordering.attempts;
     result_.cut_off = ordering.cut_off || best_.has_value();
     if (solved(ordering)) return std::move(result_);
     const bool may_try_again = !ordering.cut_off && other_orders_may_help(ordering);
@@ -111,14 +110,24 @@ class PrioritizedPlanning {
   /// whether planning goes on. It does not if all robots that are not given up can move in steps.
   bool keep_safe_plan(const std::vector<std::size_t>& unsolved, const std::vector<std::size_t>& given_up) {
     if (best_ || time_.all.met()) return false;
-    solved_in_steps_ = follow_steps(state_, order_, given_up, random_, time_.keeping);
-    if (solved_in_steps_) return false;
+    if (!has_few_robots() && moves_in_steps(given_up)) return false;
     const PlanState::Reservations before = state_.reservations();
     keep_if_better(unsolved, given_up, Effort::brief, time_.keeping);
     if (best_->plan.staying.empty()) return false;
     state_.restore(before);
     stop_ = time_.all;
     return !stop_.met();
+  }
+
+  /// Returns whether it keeps a plan in which all robots but those that are given up move in steps.
+  bool moves_in_steps(const std::vector<std::size_t>& given_up) {
+    const StopCondition part = after_share(time_.keeping, kShareOfSteps);
+    if (!follow_steps(state_, order_, given_up, random_, part)) return false;
+    ++result_.attempts;
+    progress_.next_attempt();
+    progress_.update();
+    keep_if_better({}, given_up, Effort::brief, time_.keeping);
+    return true;
   }
 
   void keep_if_better(const std::vector<std::size_t>& unsolved, const std::vector<std::size_t>& given_up,
@@ -171,7 +180,6 @@ class PrioritizedPlanning {
   const PriorityOrder order_;
   StopCondition stop_;  // ends the first attempt
   std::optional<KeptPlan> best_;
-  bool solved_in_steps_ = false;
   PrioritizedResult result_;
 };
 

@@ -100,6 +100,9 @@ class Repair {
     }
   }
 
+  /// Plans in steps would give up all plans that are kept.
+  void do_without_steps() { tried_steps_ = true; }
+
   std::optional<OrderingResult> run(std::int64_t max_failures) {
     while (!pending_.empty() && goes_on()) {
       if (result_.attempts > max_failures) return std::nullopt;
@@ -149,7 +152,8 @@ class Repair {
   /// Returns whether all robots but the hopeless ones have new trajectories; if not, nothing has changed.
   bool plans_all_in_steps() {
     tried_steps_ = true;
-    if (!follow_steps(state_, order_, result_.hopeless, random_, stop_)) return false;
+    const StopCondition part = after_share(stop_, kShareOfSteps);
+    if (!follow_steps(state_, order_, result_.hopeless, random_, part)) return false;
     ++result_.attempts;
     progress_.next_attempt();
     progress_.update();
@@ -455,6 +459,7 @@ OrderingResult repair_around(PlanState& state, const PriorityOrder& order, Rando
   progress.next_attempt();
   Repair repair(state, order, random, stop, progress, on_stop);
   repair.postpone_those_without_trajectory();
+  repair.do_without_steps();
   return *repair.run(std::numeric_limits<std::int64_t>::max());
 }
 

@@ -167,5 +167,37 @@ TEST(Lacam, PlansRandomFleetsOfAnyDensity) {
   }
 }
 
+/// Robots of the second kind do not fit everywhere: nobody may pull them there.
+TEST(Lacam, KeepsRandomFleetsOfTwoKindsToTheirGraphs) {
+  int planned = 0;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    support::Dice dice(seed);
+    std::vector<std::string> rows = aisles(2 + dice.below(2), 1 + dice.below(3));
+    StepProblem problem{{graph_of(rows)}, {}};
+    for (std::string& row : rows) {
+      for (char& cell : row) {
+        if (cell == '.' && dice.chance(0.15)) cell = '#';
+      }
+    }
+    problem.graphs.push_back(graph_of(rows));
+    std::vector<int> vertices;
+    for (std::size_t v = 0; v < problem.graphs[1].size(); ++v) {
+      const auto& next = problem.graphs[1][v];
+      if (std::count(next.begin(), next.end(), kNone) < 4) vertices.push_back(static_cast<int>(v));
+    }
+    Random random(seed);
+    std::vector<int> starts = vertices, goals = vertices;
+    random.shuffle(starts);
+    random.shuffle(goals);
+    const auto count = 1 + random.below(vertices.size() / 3);
+    for (std::size_t i = 0; i < count; ++i) problem.movers.push_back({random.below(2), starts[i], goals[i]});
+    const auto plan = plan_with_seed(problem, seed);
+    if (!plan) continue;  // the second kind may have no way
+    ++planned;
+    expect_valid(problem, *plan);
+  }
+  EXPECT_GT(planned, 50);
+}
+
 }  // namespace TEST_FILE
 }  // namespace fleetplan::core

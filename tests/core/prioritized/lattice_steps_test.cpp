@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <numbers>
 
 #include "tests/core/support/planning.h"
@@ -50,6 +51,21 @@ TEST(LatticeSteps, RefusesFleetsThatStepsDoNotDescribe) {
   options = {};
   options.inflation = 0.2;
   EXPECT_TRUE(is_refused(robot_at(0.5, 2.5).to(5.5, 2.5), options)) << "too wide with the inflation";
+}
+
+TEST(LatticeSteps, RefusesFleetsBesideCommittedMotion) {
+  const Planning p(hall(), {robot_at(0.5, 0.5).to(5.5, 0.5), robot_at(0.5, 2.5).drives(3.5, 2.5)});
+  EXPECT_FALSE(plans(p, {0})) << "of a robot without a goal";
+}
+
+TEST(LatticeSteps, FollowingThemChangesNothingWhenStopped) {
+  Planning p(hall(), {robot_at(0.5, 0.5).to(5.5, 0.5), robot_at(5.5, 0.5).to(0.5, 0.5)});
+  p.state.reserve_start(0, 3.0);
+  p.state.stay_at_start(1);
+  EXPECT_FALSE(follow_steps(p.state, {0, 1}, {}, p.random, met()));
+  EXPECT_FALSE(p.state.trajectory(0));
+  EXPECT_EQ(p.state.reservations().at_start_until[0], 3.0);
+  EXPECT_EQ(p.state.reservations().at_start_until[1], kForever);
 }
 
 TEST(LatticeSteps, RefusesFleetsAmongMovingObstacles) {
@@ -111,6 +127,7 @@ Planning random_fleet(std::uint64_t seed) {
     if (are_limited && dice.chance(0.7)) robot.linear_acceleration = dice.between(0.2, 2.0);
     if (are_limited && dice.chance(0.7)) robot.linear_deceleration = dice.between(0.2, 2.0);
     if (are_limited && dice.chance(0.5)) robot.angular_acceleration = dice.between(0.5, 5.0);
+    if (dice.chance(0.05)) robot.goal.reset();
     robots.push_back(robot);
   }
   PlanOptions options;
@@ -124,6 +141,9 @@ TEST(LatticeSteps, RandomFleetsNeverMeet) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Planning p = random_fleet(seed);
     const std::vector<std::size_t> robots = p.movers();
+    for (std::size_t i = 0; i < p.instance.size(); ++i) {
+      if (!p.instance.robot(i).goal) p.state.stay_at_start(i);
+    }
     auto trajectories = plan_in_steps(p.state, robots, p.random, p.never);
     if (!trajectories) continue;  // walls may part them
     ++planned;
@@ -137,24 +157,43 @@ TEST(LatticeSteps, RandomFleetsNeverMeet) {
 }
 
 /// Two thirds of the cells are taken: priorities come to no end there.
-TEST(LatticeSteps, SolveFleetsThatPrioritiesDoNot) {
+Problem crowd(std::uint64_t seed) {
   OccupancyGrid grid(10, 9, 1.0);
   std::vector<Position> cells;
   for (int row = 0; row < grid.rows(); ++row) {
     for (int column = 0; column < grid.columns(); ++column) cells.push_back(grid.center({column, row}));
   }
   std::vector<Position> goals = cells;
-  Random random(3);
+  Random random(seed);
   random.shuffle(cells);
   random.shuffle(goals);
   std::vector<Robot> robots;
   for (std::size_t i = 0; i < 60; ++i) {
     robots.push_back(robot_at(cells[i].x(), cells[i].y()).to(goals[i].x(), goals[i].y()));
   }
-  const Problem problem = support::make_problem(std::move(grid), std::move(robots));
-  const Plan plan = support::plan_checked(problem);
+  return support::make_problem(std::move(grid), std::move(robots));
+}
+
+TEST(LatticeSteps, SolveFleetsThatPrioritiesDoNot) {
+  const Plan plan = support::plan_checked(crowd(3));
   EXPECT_EQ(plan.plans.size(), 60u);
   EXPECT_TRUE(plan.unplanned.empty());
+}
+
+/// However the time ends, each robot has a plan or a reason for none.
+TEST(LatticeSteps, AreKeptWhenTheFirstPartOfTheTimeEnds) {
+  for (const auto reordering : {PlanOptions::Reordering::raise_failed, PlanOptions::Reordering::random,
+                                PlanOptions::Reordering::none}) {
+    for (const int milliseconds : {20, 100, 400}) {
+      const Problem problem = crowd(4);
+      PlanOptions options;
+      options.reordering = reordering;
+      const StopCondition stop(StopCondition::Clock::now() + std::chrono::milliseconds(milliseconds));
+      const Plan plan = core::plan(problem, options, stop);
+      support::expect_safe(problem, plan);
+      EXPECT_EQ(plan.plans.size() + plan.unplanned.size(), 60u);
+    }
+  }
 }
 
 }  // namespace TEST_FILE
