@@ -18,8 +18,6 @@ constexpr std::size_t kMostPlaces = 4'000'000;
 constexpr std::size_t kMostConstraints = 1'000'000;
 /// How often the search is tried, each time with other random numbers.
 constexpr int kMostTries = 4;
-/// Vertices between two checks of the stop condition.
-constexpr int kVerticesPerStop = 4096;
 /// The most vertices of a corridor that are looked at for robots that have to pass each other.
 constexpr int kLongestCorridor = 256;
 
@@ -58,7 +56,7 @@ class StepDistances {
   /// Dijkstra's search backwards, with a queue for each cost that is due (Dial, 1969).
   std::vector<std::uint16_t> to(int goal, const StepProblem::Neighbours& neighbours, const StepCosts& costs,
                                 const StopCondition& stop) {
-    StopStride stride(stop, kVerticesPerStop);
+    StopStride stride(stop, StepProblem::kVerticesBetweenStops);
     std::vector<std::uint16_t> distance(neighbours.size(), kNoWay);
     distance[static_cast<std::size_t>(goal)] = 0;
     due_[0].push_back(goal);
@@ -114,7 +112,7 @@ StepCosts against_traffic(const StepProblem& problem, const StepDistances& alone
   StepCosts costs = even;
   for (const StepProblem::Neighbours& graph : problem.graphs) {
     for (std::size_t vertex = 0; vertex < graph.size(); ++vertex) {
-      if (vertex % kVerticesPerStop == 0 && stop.met()) break;
+      if (vertex % StepProblem::kVerticesBetweenStops == 0 && stop.met()) break;
       for (std::size_t direction = 0; direction < 4; ++direction) {
         const int next = graph[vertex][direction];
         if (next == StepProblem::kNone) continue;
@@ -369,7 +367,7 @@ struct Node {
   Configuration at;
   std::vector<std::int32_t> waited;  // by robot: steps since it was at its goal
   std::vector<std::size_t> order;    // of PIBT: those that have waited longest first
-  std::vector<Constraint> made;      // constraints
+  std::vector<Constraint> made;      // in the order in which they are tried
   std::size_t next = 0;              // of `made`
   const Node* before = nullptr;
   std::size_t steps = 0;  // from the starts

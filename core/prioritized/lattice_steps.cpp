@@ -19,13 +19,13 @@ namespace {
 constexpr double kClear = 1.1181;
 /// The most vertices of all graphs together: 64 MB.
 constexpr std::size_t kMostVertices = 4'000'000;
-/// Vertices between two checks of the stop condition.
-constexpr int kVerticesBetweenStops = 1024;
+/// The share of the time that is left which steps may take before something else is tried.
+constexpr double kShareOfSteps = 0.4;
 
 bool is_simple(const Instance& instance, std::size_t robot) {
   const Itinerary& itinerary = instance.itinerary(robot);
-  return itinerary.goals.size() == 1 && !itinerary.goals.front().anywhere && itinerary.t_begin == 0.0 &&
-         !instance.changes_load(robot) && instance.drive_zones(robot) == nullptr;
+  return itinerary.goals.size() == 1 && !itinerary.goals.front().anywhere && !instance.changes_load(robot) &&
+         instance.drive_zones(robot) == nullptr;
 }
 
 /// Makes the graph of a fleet's steps, if it has one.
@@ -47,10 +47,9 @@ class StepGraph {
     std::vector<bool> is_start(vertices, false);
     std::vector<bool> is_goal(vertices, false);
     StepProblem problem;
-    double widest = 0.0;
     for (const std::size_t robot : robots_) {
       if (!is_simple(instance_, robot) || &instance_.lattice(robot) != &lattice) return std::nullopt;
-      widest = std::max(widest, instance_.motion(robot).pair_radius);
+      widest_ = std::max(widest_, instance_.motion(robot).pair_radius);
       const Itinerary& itinerary = instance_.itinerary(robot);
       const int start = lattice.vertex_at(itinerary.pose.position);
       const int goal = lattice.vertex_at(itinerary.goals.front().position);
@@ -62,8 +61,8 @@ class StepGraph {
       is_goal[static_cast<std::size_t>(goal)] = true;
       problem.movers.push_back({0, start, goal});
     }
-    find_standing(widest, lattice);
-    if (2.0 * std::max(widest, widest_standing_) > lattice.spacing() + kSearchSlack) return std::nullopt;
+    find_standing(lattice);
+    if (2.0 * widest_ > lattice.spacing() + kSearchSlack) return std::nullopt;
     std::map<const FreeSpace*, std::size_t> known;
     for (std::size_t k = 0; k < robots_.size(); ++k) {
       FreeSpace& space = instance_.free_space(robots_[k]);
@@ -79,8 +78,7 @@ class StepGraph {
 
  private:
   /// Notes which vertices robots that stay take.
-  void find_standing(double widest, const Lattice& lattice) {
-    widest_standing_ = widest;
+  void find_standing(const Lattice& lattice) {
     taken_.assign(static_cast<std::size_t>(lattice.vertex_count()), false);
     std::vector<bool> moves(instance_.size(), false);
     for (const std::size_t robot : robots_) moves[robot] = true;
@@ -88,7 +86,7 @@ class StepGraph {
     for (std::size_t i = 0; i < instance_.size(); ++i) {
       if (moves[i] || state_.reservations().at_start_until[i] != kForever) continue;
       const Position& position = instance_.itinerary(i).pose.position;
-      widest_standing_ = std::max(widest_standing_, instance_.largest_disk(i).pair_radius);
+      widest_ = std::max(widest_, instance_.largest_disk(i).pair_radius);
       const int vertex = lattice.vertex_at(position);
       if (vertex >= 0) {
         taken_[static_cast<std::size_t>(vertex)] = true;
@@ -105,7 +103,7 @@ class StepGraph {
     StepProblem::Neighbours all(
         taken_.size(), {StepProblem::kNone, StepProblem::kNone, StepProblem::kNone, StepProblem::kNone});
     for (int vertex = 0; vertex < lattice.vertex_count(); ++vertex) {
-      if (vertex % kVerticesBetweenStops == 0 && stop.met()) break;
+      if (vertex % StepProblem::kVerticesBetweenStops == 0 && stop.met()) break;
       if (taken_[static_cast<std::size_t>(vertex)]) continue;
       std::uint32_t mask = space.steps_from(vertex);
       // Bounded: the steps of a lattice, at most 32.
@@ -124,8 +122,8 @@ class StepGraph {
   const PlanState& state_;
   const Instance& instance_;
   const std::vector<std::size_t>& robots_;
-  std::vector<bool> taken_;       // by vertex
-  double widest_standing_ = 0.0;  // metres; the largest radius of all robots
+  std::vector<bool> taken_;  // by vertex
+  double widest_ = 0.0;      // metres; the largest radius of all robots
 };
 
 /// How a robot has come to a vertex, stayed there, and left it.
@@ -144,8 +142,7 @@ class TimedSteps {
         vertices_(static_cast<std::size_t>(lattice.vertex_count())) {
     for (const std::size_t robot : robots) {
       const Pose& pose = instance.itinerary(robot).pose;
-      trajectories_.push_back(instance.itinerary(robot).committed);
-      trajectories_.back().start = pose.position;
+      trajectories_.push_back({pose.position, {}});
       headings_.push_back(pose.theta);
       arrivals_.push_back(0.0);
       arriving_.emplace_back();
@@ -225,7 +222,8 @@ class TimedSteps {
     const Segment path{lattice_.position(from), lattice_.position(to)};
     const Displacement way = lattice_.between(from, to);
     const double duration = motion.translation_time(way.length);
-    const double free = free_from(at(to), parts(motion, path, duration), motion.pair_radius);
+    std::vector<TimedSegment> step = parts(motion, path, duration);
+    const double free = free_from(at(to), step, motion.pair_radius);
     Trajectory& trajectory = trajectories_[k];
     const bool goes_on = !trajectory.moves.empty() && !motion.linear_inertia.is_limited &&
                          free <= arrivals_[k] && angle_between(headings_[k], way.heading) <= kSameHeading;
@@ -249,12 +247,12 @@ class TimedSteps {
     }
     left.last = {std::move(arriving_[k]), motion.pair_radius};
     left.last.phases.push_back({{path.from, path.from}, arrivals_[k], departure});
-    arriving_[k] = parts(motion, path, duration);
-    for (TimedSegment& part : arriving_[k]) {
+    for (TimedSegment& part : step) {
       part.t_start += departure;
       part.t_end += departure;
       left.last.phases.push_back(part);
     }
+    arriving_[k] = std::move(step);
     headings_[k] = way.heading;
     arrivals_[k] = arrival;
   }
@@ -292,7 +290,8 @@ std::optional<std::vector<Trajectory>> plan_in_steps(const PlanState& state,
 }
 
 bool follow_steps(PlanState& state, const std::vector<std::size_t>& order,
-                  const std::vector<std::size_t>& hopeless, Random& random, const StopCondition& stop) {
+                  const std::vector<std::size_t>& hopeless, Random& random, const StopCondition& stop,
+                  ProgressReport& progress) {
   std::vector<bool> moves(state.instance().size(), false);
   for (const std::size_t robot : order) moves[robot] = true;
   for (const std::size_t robot : hopeless) moves[robot] = false;
@@ -303,17 +302,22 @@ bool follow_steps(PlanState& state, const std::vector<std::size_t>& order,
   for (std::size_t i = 0; i < moves.size(); ++i) {
     if (!moves[i] && state.trajectory(i)) return false;  // its motion is not known to steps
   }
+  const StopCondition part = after_share(stop, kShareOfSteps);
   const PlanState::Reservations before = state.reservations();
   try {
-    auto trajectories = plan_in_steps(state, robots, random, stop);
+    auto trajectories = plan_in_steps(state, robots, random, part);
     if (!trajectories) return false;
     for (const std::size_t robot : robots) state.remove(robot);
     bool is_free = true;
     for (std::size_t k = 0; k < robots.size() && is_free; ++k) {
-      is_free = !stop.met() && state.conflicting_robots(robots[k], (*trajectories)[k]).empty();
+      is_free = !part.met() && state.conflicting_robots(robots[k], (*trajectories)[k]).empty();
       if (is_free) state.follow(robots[k], std::move((*trajectories)[k]));
     }
-    if (is_free) return true;
+    if (is_free) {
+      progress.next_attempt();
+      progress.update();
+      return true;
+    }
   } catch (const std::bad_alloc&) {  // not granted to the job
   }
   state.restore(before);

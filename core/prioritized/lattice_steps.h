@@ -6,6 +6,7 @@
 
 #include "core/model/trajectory.h"
 #include "core/prioritized/plan_state.h"
+#include "core/prioritized/progress_report.h"
 #include "core/runtime/random.h"
 #include "core/runtime/stop_condition.h"
 
@@ -27,13 +28,11 @@ std::optional<std::vector<Trajectory>> plan_in_steps(const PlanState& state,
                                                      const std::vector<std::size_t>& robots, Random& random,
                                                      const StopCondition& stop);
 
-/// The share of the time that is left which steps may take before something else is tried.
-inline constexpr double kShareOfSteps = 0.4;
-
 /// Plans the robots of `order`, which no others but those that stay share the map with, in steps, except for
 /// the `hopeless` ones, which stay. Returns whether all of them follow the result, and nobody meets; if not,
-/// no reservation has changed.
+/// no reservation has changed. Takes a part of the time until `stop`.
 bool follow_steps(PlanState& state, const std::vector<std::size_t>& order,
-                  const std::vector<std::size_t>& hopeless, Random& random, const StopCondition& stop);
+                  const std::vector<std::size_t>& hopeless, Random& random, const StopCondition& stop,
+                  ProgressReport& progress);
 
 }  // namespace fleetplan::core

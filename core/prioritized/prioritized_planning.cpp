@@ -121,11 +121,8 @@ class PrioritizedPlanning {
 
   /// Returns whether it keeps a plan in which all robots but those that are given up move in steps.
   bool moves_in_steps(const std::vector<std::size_t>& given_up) {
-    const StopCondition part = after_share(time_.keeping, kShareOfSteps);
-    if (!follow_steps(state_, order_, given_up, random_, part)) return false;
+    if (!follow_steps(state_, order_, given_up, random_, time_.keeping, progress_)) return false;
     ++result_.attempts;
-    progress_.next_attempt();
-    progress_.update();
     keep_if_better({}, given_up, Effort::brief, time_.keeping);
     return true;
   }

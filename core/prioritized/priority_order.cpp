@@ -44,15 +44,22 @@ double distance_to_goals(const Robot& robot) {
   return distance + (robot.goal->position - from).norm();
 }
 
+/// The distance over the speed to this power.
+double weighted_distance(const Robot& robot, double speed_weight) {
+  return distance_to_goals(robot) / std::pow(robot.linear_speed, speed_weight);
+}
+
+/// The nearest to their goals first. A heavy robot counts as so many times nearer (Smith's rule, 1956).
+PriorityOrder sorted_by_distance(const std::vector<Robot>& all, PriorityOrder robots, double speed_weight) {
+  const auto key = [&](std::size_t i) { return weighted_distance(all[i], speed_weight) / all[i].weight; };
+  std::stable_sort(robots.begin(), robots.end(), [&](auto a, auto b) { return key(a) < key(b); });
+  return robots;
+}
+
 }  // namespace
 
 PriorityOrder order_by_time(const Instance& instance, std::vector<std::size_t> robots) {
-  const auto key = [&](std::size_t i) {
-    const Robot& robot = instance.robot(i);
-    return distance_to_goals(robot) / robot.linear_speed / robot.weight;
-  };
-  std::stable_sort(robots.begin(), robots.end(), [&](auto a, auto b) { return key(a) < key(b); });
-  return robots;
+  return sorted_by_distance(instance.problem().robots(), std::move(robots), 1.0);
 }
 
 PriorityOrder initial_order(const Instance& instance, std::vector<std::size_t> robots, Random& random) {
@@ -61,20 +68,15 @@ PriorityOrder initial_order(const Instance& instance, std::vector<std::size_t> r
 
 PriorityOrder initial_order(const std::vector<Robot>& all, const PlanOptions& options,
                             std::vector<std::size_t> robots, Random& random) {
-  const auto distance_of = [&](std::size_t i) {
-    return distance_to_goals(all[i]) / std::pow(all[i].linear_speed, kSpeedWeight);
-  };
   switch (options.priority) {
     case PlanOptions::Priority::shortest_first:
-      std::stable_sort(
-          robots.begin(), robots.end(),
-          // A heavy robot counts as so many times nearer (Smith's rule, 1956).
-          [&](auto a, auto b) { return distance_of(a) / all[a].weight < distance_of(b) / all[b].weight; });
+      robots = sorted_by_distance(all, std::move(robots), kSpeedWeight);
       if (options.horizon) order_for_horizon(all, robots);
       break;
     case PlanOptions::Priority::longest_first:
       std::stable_sort(robots.begin(), robots.end(), [&](auto a, auto b) {
-        return distance_of(a) * all[a].weight > distance_of(b) * all[b].weight;
+        return weighted_distance(all[a], kSpeedWeight) * all[a].weight >
+               weighted_distance(all[b], kSpeedWeight) * all[b].weight;
       });
       break;
     case PlanOptions::Priority::random:

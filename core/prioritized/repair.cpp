@@ -152,11 +152,8 @@ class Repair {
   /// Returns whether all robots but the hopeless ones have new trajectories; if not, nothing has changed.
   bool plans_all_in_steps() {
     tried_steps_ = true;
-    const StopCondition part = after_share(stop_, kShareOfSteps);
-    if (!follow_steps(state_, order_, result_.hopeless, random_, part)) return false;
+    if (!follow_steps(state_, order_, result_.hopeless, random_, stop_, progress_)) return false;
     ++result_.attempts;
-    progress_.next_attempt();
-    progress_.update();
     pending_.clear();
     result_.given_up = result_.hopeless;
     return true;

@@ -146,15 +146,20 @@ std::vector<std::string> aisles(int columns, int rows) {
   return map;
 }
 
+/// The vertices with a way to another one.
+std::vector<int> joined_vertices(const StepProblem::Neighbours& graph) {
+  std::vector<int> vertices;
+  for (std::size_t v = 0; v < graph.size(); ++v) {
+    if (std::count(graph[v].begin(), graph[v].end(), kNone) < 4) vertices.push_back(static_cast<int>(v));
+  }
+  return vertices;
+}
+
 TEST(Lacam, PlansRandomFleetsOfAnyDensity) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     support::Dice dice(seed);
     StepProblem problem{{graph_of(aisles(2 + dice.below(4), 1 + dice.below(4)))}, {}};
-    std::vector<int> vertices;
-    for (std::size_t v = 0; v < problem.graphs[0].size(); ++v) {
-      const auto& next = problem.graphs[0][v];
-      if (std::count(next.begin(), next.end(), kNone) < 4) vertices.push_back(static_cast<int>(v));
-    }
+    const std::vector<int> vertices = joined_vertices(problem.graphs[0]);
     Random random(seed);
     std::vector<int> starts = vertices, goals = vertices;
     random.shuffle(starts);
@@ -180,11 +185,7 @@ TEST(Lacam, KeepsRandomFleetsOfTwoKindsToTheirGraphs) {
       }
     }
     problem.graphs.push_back(graph_of(rows));
-    std::vector<int> vertices;
-    for (std::size_t v = 0; v < problem.graphs[1].size(); ++v) {
-      const auto& next = problem.graphs[1][v];
-      if (std::count(next.begin(), next.end(), kNone) < 4) vertices.push_back(static_cast<int>(v));
-    }
+    const std::vector<int> vertices = joined_vertices(problem.graphs[1]);
     Random random(seed);
     std::vector<int> starts = vertices, goals = vertices;
     random.shuffle(starts);

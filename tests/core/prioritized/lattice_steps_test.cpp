@@ -62,7 +62,7 @@ TEST(LatticeSteps, FollowingThemChangesNothingWhenStopped) {
   Planning p(hall(), {robot_at(0.5, 0.5).to(5.5, 0.5), robot_at(5.5, 0.5).to(0.5, 0.5)});
   p.state.reserve_start(0, 3.0);
   p.state.stay_at_start(1);
-  EXPECT_FALSE(follow_steps(p.state, {0, 1}, {}, p.random, met()));
+  EXPECT_FALSE(follow_steps(p.state, {0, 1}, {}, p.random, met(), p.progress));
   EXPECT_FALSE(p.state.trajectory(0));
   EXPECT_EQ(p.state.reservations().at_start_until[0], 3.0);
   EXPECT_EQ(p.state.reservations().at_start_until[1], kForever);
@@ -81,14 +81,14 @@ TEST(LatticeSteps, GoRoundRobotsThatStay) {
   Planning p(hall(), {robot_at(0.5, 1.5).to(5.5, 1.5), robot_at(2.5, 1.5), robot_at(3.6, 0.4)});
   p.state.stay_at_start(1);
   p.state.stay_at_start(2);
-  ASSERT_TRUE(follow_steps(p.state, {0}, {}, p.random, p.never));
+  ASSERT_TRUE(follow_steps(p.state, {0}, {}, p.random, p.never, p.progress));
   support::expect_safe(p.state);
 }
 
 TEST(LatticeSteps, FollowingThemChangesNothingWhereTheyCannotBe) {
   Planning p(hall(), {robot_at(0.5, 0.5).to(5.5, 0.5), robot_at(0.5, 1.5).to(5.5, 1.5)});
   p.state.follow(1, through({{0.5, 1.5}, {5.5, 1.5}}));
-  EXPECT_FALSE(follow_steps(p.state, {0}, {}, p.random, p.never)) << "another robot is under way";
+  EXPECT_FALSE(follow_steps(p.state, {0}, {}, p.random, p.never, p.progress)) << "another robot is under way";
   EXPECT_FALSE(p.state.trajectory(0));
   EXPECT_TRUE(p.state.trajectory(1));
 }
