@@ -209,17 +209,18 @@ void ReservationTable::remove(std::size_t robot) { index_->remove(robot); }
 void ReservationTable::ignore(std::size_t robot, bool ignored) { index_->ignore(robot, ignored); }
 
 std::vector<SafeInterval> ReservationTable::safe_intervals(const Footprint& footprint,
-                                                           const Position& position) const {
+                                                           const Position& position, double t_from) const {
   const std::size_t robot = footprint.robot;
   std::vector<UnsafeInterval> unsafe;
   const MarginAtRest margin{margin_, departs(robot, position) ? departure(robot) : 0.0};
   const Segment here{position, position};
   const CollisionDistance collision_distance(*index_, footprint, here);
-  index_->visit(robot, index_->grid().at(position), -1.0, kForever, [&](const Occupant& other) {
-    const UnsafeInterval hit = unsafe_interval(position, other.disk, collision_distance(other));
-    if (!hit.empty()) unsafe.push_back(margin.widened(hit));
-    return true;
-  });
+  index_->visit(robot, index_->grid().at(position), t_from - margin_ - kSameTime, kForever,
+                [&](const Occupant& other) {
+                  const UnsafeInterval hit = unsafe_interval(position, other.disk, collision_distance(other));
+                  if (!hit.empty()) unsafe.push_back(margin.widened(hit));
+                  return true;
+                });
   if (fixed_ != nullptr) {
     if (!fixed_->known()) return {};
     const FixedDistance fixed_distance(*this, footprint, here);

@@ -42,8 +42,10 @@ class ReservationTable {
   bool is_costly() const;
 
   /// When the robot may stand at `position` (paper, "Computing intervals"); ascending, without intervals
-  /// shorter than 1e-9 s.
-  std::vector<SafeInterval> safe_intervals(const Footprint& footprint, const Position& position) const;
+  /// shorter than 1e-9 s. What passes there before `t_from`, the earliest time at which the robot can be
+  /// there, may be left out, which saves time.
+  std::vector<SafeInterval> safe_intervals(const Footprint& footprint, const Position& position,
+                                           double t_from = 0.0) const;
 
   /// The earliest departure in [t_min, t_max] at which the robot can make the straight move of `duration`
   /// seconds (> 0) without a collision on the way; none if there is none. The caller ensures that the robot

@@ -3,6 +3,20 @@
 #include <cmath>
 
 namespace fleetplan::core {
+namespace {
+
+/// The greatest linear speed of the robot in any stage, metres per second.
+double greatest_speed(const SearchSpace& space) {
+  double greatest = space.vertices().motion().linear_speed;
+  if (!space.changes_load()) return greatest;
+  // Bounded: the goals of one robot.
+  for (std::size_t stage = 0; stage <= space.goal_count(); ++stage) {
+    greatest = std::max(greatest, space.vertices(stage).motion().linear_speed);
+  }
+  return greatest;
+}
+
+}  // namespace
 
 Successors::Successors(const ReservationTable& table, SearchSpace& space, const Goals& goals,
                        SearchState& state, const StopCondition& stop)
@@ -14,6 +28,7 @@ Successors::Successors(const ReservationTable& table, SearchSpace& space, const 
       motion_(space.vertices().motion()),
       vertices_(space.vertices()),
       changes_load_(space.changes_load()),
+      fastest_(greatest_speed(space)),
       has_parts_(changes_load_ || vertices_.limit_speeds() || motion_.linear_inertia.is_limited),
       may_continue_(motion_.wait_before_move > 0.0 && !motion_.linear_inertia.is_limited) {}
 
@@ -44,6 +59,12 @@ PlaceId Successors::place_of(int vertex, int stage) {
   return latest;
 }
 
+/// No earlier than straight from the start at the greatest speed, seconds.
+double Successors::earliest_arrival(const Position& position) const {
+  const double distance = (position - vertices_.position(vertices_.start())).norm();
+  return space_.itinerary().t_begin + distance / fastest_;
+}
+
 /// The safe intervals of a vertex are the same in all stages with the same load.
 void Successors::append_intervals(Place& place) {
   const Stage& at = goals_.stage(place.stage);
@@ -61,7 +82,8 @@ void Successors::append_intervals(Place& place) {
       state_.intervals.push_back(SafeInterval(state_.intervals[k]));
     }
   } else {
-    for (const SafeInterval& safe : table_.safe_intervals(at.footprint, place.position)) {
+    const double t_from = earliest_arrival(place.position);
+    for (const SafeInterval& safe : table_.safe_intervals(at.footprint, place.position, t_from)) {
       state_.intervals.push_back(safe);
     }
   }
@@ -74,10 +96,11 @@ void Successors::append_intervals(Place& place) {
 void Successors::append_windows(const Place& place) {
   const Stage& at = goals_.stage(place.stage);
   const Stage& next = goals_.stage(place.stage + 1);
-  const std::vector<SafeInterval> after = table_.safe_intervals(next.footprint, place.position);
+  const double t_from = earliest_arrival(place.position);
+  const std::vector<SafeInterval> after = table_.safe_intervals(next.footprint, place.position, t_from);
   auto begin = after.begin();
   // Bounded: the intervals, which are ascending: each is left behind once, or overlaps another one.
-  for (const SafeInterval& before : table_.safe_intervals(at.footprint, place.position)) {
+  for (const SafeInterval& before : table_.safe_intervals(at.footprint, place.position, t_from)) {
     while (begin != after.end() && begin->end < before.begin) ++begin;
     for (auto later = begin; later != after.end() && later->begin <= before.end; ++later) {
       const SafeInterval& then = *later;

@@ -60,6 +60,7 @@ class Successors {
     return changes_load_ ? *goals_.stage(stage).vertices : vertices_;
   }
 
+  double earliest_arrival(const Position& position) const;
   void append_intervals(Place& place);
   void append_windows(const Place& place);
 
@@ -86,6 +87,7 @@ class Successors {
   const Motion& motion_;
   const Vertices& vertices_;  // of the first stage
   const bool changes_load_;
+  const double fastest_;     // metres per second, in any stage
   const bool has_parts_;     // whether moves may have parts of different speeds
   const bool may_continue_;  // whether a move may go on from the one before without the added wait
 };

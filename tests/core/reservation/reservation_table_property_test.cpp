@@ -130,6 +130,24 @@ TEST_P(RandomReservations, SafeIntervalsAreComplementOfUnsafeIntervals) {
   }
 }
 
+TEST_P(RandomReservations, SafeIntervalsFromATimeOnAreThoseOfAllTimes) {
+  for (int k = 0; k < 40; ++k) {
+    SCOPED_TRACE(testing::Message() << "seed " << GetParam() << ", position " << k);
+    const Position position = place();
+    const double t_from = dice.between(0, 25);
+    const auto ends_before = [&](const SafeInterval& safe) { return safe.end <= t_from; };
+    auto all = table.safe_intervals(footprint(), position);
+    auto from = table.safe_intervals(footprint(), position, t_from);
+    std::erase_if(all, ends_before);
+    std::erase_if(from, ends_before);
+    ASSERT_EQ(from.size(), all.size());
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      ASSERT_EQ(std::max(from[i].begin, t_from), std::max(all[i].begin, t_from));
+      ASSERT_EQ(from[i].end, all[i].end);
+    }
+  }
+}
+
 /// The first time from `t` on that is in none of the intervals; none if there is none by `t_max`.
 std::optional<double> first_free(const std::vector<UnsafeInterval>& forbidden, double t, double t_max) {
   for (const UnsafeInterval& interval : forbidden) {
