@@ -20,7 +20,6 @@
 #include "core/prioritized/prioritized_planning.h"
 #include "core/prioritized/progress_report.h"
 #include "core/prioritized/triage.h"
-#include "core/prioritized/zones_in_the_way.h"
 #include "core/replan/kept_plans.h"
 #include "core/runtime/memory_account.h"
 

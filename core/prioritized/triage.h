@@ -1,10 +1,14 @@
 #pragma once
 
+// Robots that cannot move, and why.
+
 #include <cstddef>
 #include <optional>
 #include <vector>
 
 #include "core/model/plan.h"
+#include "core/model/plan_options.h"
+#include "core/model/problem.h"
 #include "core/prioritized/plan_state.h"
 #include "core/runtime/stop_condition.h"
 
@@ -19,5 +23,12 @@ std::vector<std::optional<Unplanned>> triage(PlanState& state, const StopConditi
 
 /// Returns why a robot of this radius (metres, inflation included) that has no way to its goal has no plan.
 Unplanned unplanned_without_way(std::size_t robot, double radius, const Way& way);
+
+/// Returns the list with more details for robots that walls or zones leave no way: the zones without which
+/// each of them would have one, none of these superfluous. Of many such robots and zones, only the first are
+/// examined, until the stop condition is met.
+std::vector<std::optional<Unplanned>> with_zones_named(const Problem& problem, const PlanOptions& options,
+                                                       std::vector<std::optional<Unplanned>> unplanned,
+                                                       const StopCondition& stop);
 
 }  // namespace fleetplan::core
