@@ -7,8 +7,8 @@
 
 #include "core/model/plan.h"
 #include "core/prioritized/plan_state.h"
-#include "core/prioritized/priority_order.h"
 #include "core/prioritized/progress_report.h"
+#include "core/runtime/random.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {

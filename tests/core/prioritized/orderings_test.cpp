@@ -1,4 +1,4 @@
-#include "core/prioritized/priority_order.h"
+#include "core/prioritized/orderings.h"
 
 #include <gtest/gtest.h>
 
