@@ -15,7 +15,6 @@
 #include "core/instance/instance.h"
 #include "core/lns/large_neighbourhood_search.h"
 #include "core/prioritized/collect_plan.h"
-#include "core/prioritized/plan_around_kept.h"
 #include "core/prioritized/plan_state.h"
 #include "core/prioritized/prioritized_planning.h"
 #include "core/prioritized/progress_report.h"

@@ -1,11 +1,10 @@
-#include "core/prioritized/plan_around_kept.h"
-
 #include <algorithm>
 #include <chrono>
 #include <utility>
 
 #include "core/prioritized/orderings.h"
 #include "core/prioritized/partial_plan.h"
+#include "core/prioritized/prioritized_planning.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {

@@ -1,5 +1,8 @@
 #pragma once
 
+// Prioritized planning of all robots: from the beginning, or around plans that are kept
+// (plan_around_kept.cpp).
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -39,5 +42,18 @@ struct PlanningTime {
 /// deadline the number of orders is limited. Leaves the best safe plan in the state.
 PrioritizedResult plan_prioritized(PlanState& state, const std::vector<std::size_t>& movers, Random& random,
                                    const PlanningTime& time, ProgressReport& progress);
+
+/// Plans the robots of `movers` (ascending) that have no trajectory in `state` around those that have one.
+/// Robots with a trajectory keep it unless another robot cannot be planned otherwise: then the plan is
+/// repaired (see orderings.h), and if that does not plan all robots, it is made anew, which counts if it
+/// plans more.
+///
+/// Robots that can follow their trajectories while all others of `movers` stay where they are remain planned
+/// in every case, also if `time` is over before planning begins. `certain` tells by robot which ones these
+/// are. If it is empty, they are the robots that cross no place where another one may have to stay. Leaves
+/// the best safe plan in the state.
+PrioritizedResult plan_around_kept(PlanState& state, const std::vector<std::size_t>& movers,
+                                   const std::vector<bool>& certain, Random& random, const PlanningTime& time,
+                                   ProgressReport& progress);
 
 }  // namespace fleetplan::core
