@@ -1,7 +1,7 @@
 #pragma once
 
-// Converts values of the public headers to those of core, and back. Core has positions relative to the lower
-// left corner of the map.
+// Converts values of the public headers to those of core, and back (convert.cpp), and makes valid problems of
+// them (make_problem.cpp). Core has positions relative to the lower left corner of the map.
 
 #include <fleetplan/action.h>
 #include <fleetplan/map.h>
@@ -10,11 +10,14 @@
 #include <fleetplan/problem.h>
 #include <fleetplan/verify.h>
 
+#include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "core/map/occupancy_grid.h"
 #include "core/model/plan.h"
 #include "core/model/plan_options.h"
+#include "core/model/problem.h"
 #include "core/model/robot.h"
 #include "core/model/surroundings.h"
 #include "core/verify/verify.h"
@@ -51,5 +54,26 @@ std::vector<core::UnavoidableCollision> unavoidable_of(const std::vector<Unavoid
 /// Converts a plan, except whether it is verified and how long it took.
 Plan plan_of(const core::Plan& plan, const Problem& problem);
 Verification verification_of(core::VerifyReport report);
+
+/// What is read from a problem; faults of its numbers and lists are added to `faults`.
+struct ReadFleet {
+  std::vector<core::Robot> robots;
+  std::vector<core::MovingObstacle> obstacles;
+  std::vector<core::Zone> zones;
+  std::vector<Fault> faults;  // only the first ones of many
+};
+
+ReadFleet read_fleet(const Problem& problem);
+
+/// Whether any robot has committed actions or a previous plan.
+bool in_motion(const Problem& problem);
+
+/// A problem for the planner, or its faults. Neither if a stop was requested first.
+struct MadeProblem {
+  std::optional<core::Problem> problem;
+  std::vector<Fault> faults;
+};
+
+MadeProblem make_problem(const Problem& problem, const Options& options, const std::stop_token& stop);
 
 }  // namespace fleetplan::library

@@ -1,5 +1,3 @@
-#include "library/make_problem.h"
-
 #include <fleetplan/limits.h>
 
 #include <algorithm>
@@ -54,6 +52,8 @@ std::string number_text(double number) {
 std::string item(const std::string& list, std::size_t index) {
   return list + '[' + std::to_string(index) + ']';
 }
+
+constexpr std::size_t kMostFaults = 20;
 
 /// Collects faults, and keeps the first ones of many.
 class FaultList {
@@ -331,6 +331,39 @@ Fault described(const core::ProblemFault& found) {
           "The motion meets " + other + " at " + number_text(found.t) + " s: an overlap of " + overlap + '.'};
 }
 
+std::vector<Fault> faults_of(const Options& options, const Map& map) {
+  FaultList faults(kMostFaults);
+  if (options.time_budget.count() <= 0)
+    faults.add("options.time_budget", "The time budget must be positive.");
+  const auto interval = options.start_safe_interval.value_or(0.0);
+  faults.check(interval, kDuration, "options.start_safe_interval");
+  faults.check(options.inflation, kLengthOrZero, "options.inflation");
+  faults.check(options.wait_before_move, kDuration, "options.wait_before_move");
+  faults.check(options.interval_margin, kDuration, "options.interval_margin");
+  faults.check(options.start_overlap, kLengthOrZero, "options.start_overlap");
+  if (options.horizon) faults.check(*options.horizon, kHorizon, "options.horizon");
+  const int c = options.connectivity;
+  if (c != 4 && c != 8 && c != 16 && c != 32) {
+    faults.add("options.connectivity", "The connectivity must be 4, 8, 16 or 32.");
+  }
+  if (options.max_iterations && *options.max_iterations < 0) {
+    faults.add("options.max_iterations", "The number of steps must not be negative.");
+  }
+  if (!options.lattice_spacing) return faults.take();
+  faults.check(*options.lattice_spacing, kLength, "options.lattice_spacing");
+  if (!faults.empty()) return faults.take();
+  constexpr std::int64_t kMostVertices = 1'000'000'000;
+  const auto along = [&](int cells) {
+    return core::Lattice::vertices_along(cells * map.resolution(), *options.lattice_spacing);
+  };
+  const std::int64_t columns = along(map.columns());
+  const std::int64_t rows = along(map.rows());
+  if (columns < 1 || rows < 1 || columns > kMostVertices / rows) {
+    faults.add("options.lattice_spacing", "The lattice has no vertex on this map, or more than 1e9.");
+  }
+  return faults.take();
+}
+
 core::ProblemConditions conditions(ReadFleet& fleet, const Options& options) {
   core::ProblemConditions made;
   made.pair_overlap = std::max(0.0, options.start_overlap - 2.0 * options.inflation);
@@ -377,39 +410,6 @@ ReadFleet read_fleet(const Problem& problem) {
   }
   read.faults = faults.take();
   return read;
-}
-
-std::vector<Fault> faults_of(const Options& options, const Map& map) {
-  FaultList faults(kMostFaults);
-  if (options.time_budget.count() <= 0)
-    faults.add("options.time_budget", "The time budget must be positive.");
-  const auto interval = options.start_safe_interval.value_or(0.0);
-  faults.check(interval, kDuration, "options.start_safe_interval");
-  faults.check(options.inflation, kLengthOrZero, "options.inflation");
-  faults.check(options.wait_before_move, kDuration, "options.wait_before_move");
-  faults.check(options.interval_margin, kDuration, "options.interval_margin");
-  faults.check(options.start_overlap, kLengthOrZero, "options.start_overlap");
-  if (options.horizon) faults.check(*options.horizon, kHorizon, "options.horizon");
-  const int c = options.connectivity;
-  if (c != 4 && c != 8 && c != 16 && c != 32) {
-    faults.add("options.connectivity", "The connectivity must be 4, 8, 16 or 32.");
-  }
-  if (options.max_iterations && *options.max_iterations < 0) {
-    faults.add("options.max_iterations", "The number of steps must not be negative.");
-  }
-  if (!options.lattice_spacing) return faults.take();
-  faults.check(*options.lattice_spacing, kLength, "options.lattice_spacing");
-  if (!faults.empty()) return faults.take();
-  constexpr std::int64_t kMostVertices = 1'000'000'000;
-  const auto along = [&](int cells) {
-    return core::Lattice::vertices_along(cells * map.resolution(), *options.lattice_spacing);
-  };
-  const std::int64_t columns = along(map.columns());
-  const std::int64_t rows = along(map.rows());
-  if (columns < 1 || rows < 1 || columns > kMostVertices / rows) {
-    faults.add("options.lattice_spacing", "The lattice has no vertex on this map, or more than 1e9.");
-  }
-  return faults.take();
 }
 
 MadeProblem make_problem(const Problem& problem, const Options& options, const std::stop_token& stop) {

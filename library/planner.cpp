@@ -16,7 +16,6 @@
 #include "core/runtime/stop_condition.h"
 #include "core/verify/verify.h"
 #include "library/convert.h"
-#include "library/make_problem.h"
 
 namespace fleetplan {
 
