@@ -20,11 +20,122 @@ constexpr int kGoalsBetweenStops = 64;
 /// in the next round anyway.
 constexpr double kRestGrowth = 10.0;
 
+enum class Pass : std::uint8_t { quick, complete };
+
+/// f orders the open list; h is the estimated cost to the goal; `cost` estimates the cost of the whole path,
+/// without the heuristic weight. Seconds.
+struct Evaluation {
+  double f;
+  double h;
+  double cost;
+};
+
+/// Where the path ends: the best ends that a pass has found, until one of them is good enough.
+class PathEnd {
+ public:
+  explicit PathEnd(const SearchLimits& limits) : limits_(limits) {}
+
+  void begin() {
+    label_ = rest_ = LabelId::none;
+    entry_ = EntryId::none;
+    entry_cost_ = rest_f_ = kForever;
+  }
+
+  bool is_found() const { return label_ != LabelId::none; }
+  LabelId label() const { return label_; }
+  void set(LabelId label) { label_ = label; }
+
+  /// A timed entry into the interval in which a path ends at the goal, and the cost of that path.
+  void offer(EntryId entry, double cost) {
+    if (!(cost < entry_cost_)) return;
+    entry_ = entry;
+    entry_cost_ = cost;
+  }
+  EntryId best_entry() const { return entry_; }
+
+  /// A label beyond the horizon, at which the robot may rest for good.
+  void offer_rest(LabelId label, const Evaluation& evaluation) {
+    if (!(evaluation.f < rest_f_ && evaluation.cost < limits_.bound)) return;
+    rest_ = label;
+    rest_f_ = evaluation.f;
+  }
+  /// Ends the path at the best label to rest at, if there is one.
+  bool rest() {
+    label_ = rest_;
+    return is_found();
+  }
+
+  /// Whether the cheapest timed path to the goal is within the suboptimality bound.
+  bool goal_suffices(double min_f, std::int64_t expansions) const {
+    if (entry_ == EntryId::none) return false;
+    const double growth = limits_.suboptimality_growth * static_cast<double>(expansions);
+    return entry_cost_ <= (1.0 + (limits_.suboptimality + growth)) * min_f;
+  }
+  /// Whether no entry promises much more than the best label to rest at. What is accepted relates to the time
+  /// up to the horizon, as the way beyond it is the same for all.
+  bool rest_suffices(double min_f, std::int64_t expansions) const {
+    if (rest_ == LabelId::none) return false;
+    const double growth = kRestGrowth * limits_.suboptimality_growth * static_cast<double>(expansions);
+    return rest_f_ <= min_f + growth * limits_.horizon;
+  }
+
+ private:
+  const SearchLimits& limits_;
+  LabelId label_ = LabelId::none;
+  EntryId entry_ = EntryId::none;
+  double entry_cost_ = kForever;
+  LabelId rest_ = LabelId::none;
+  double rest_f_ = kForever;
+};
+
+/// The arrivals that a pass discards, because others dominate them or are hardly worse.
+class DominatedArrivals {
+ public:
+  DominatedArrivals(const DominanceTable& table, const Goals& goals, const Motion& motion)
+      : table_(table), goals_(goals), motion_(motion) {}
+
+  void begin(Pass pass, bool uses_slack) {
+    pass_ = pass;
+    uses_slack_ = uses_slack;
+    may_be_kept_ = false;
+  }
+
+  bool contain(int interval, double arrival, double heading, double f) {
+    if (table_.empty(interval)) return false;
+    // The quick pass keeps one label per interval while no path ends before time f, because a goal is not
+    // free yet or has to wait. An earlier arrival would gain nothing.
+    const bool waiting = pass_ == Pass::quick && f <= goals_.release();
+    const bool dominated = waiting || table_.dominated_from(interval, heading) <= arrival + kSameTime ||
+                           (motion_.wait_before_move > 0.0 && table_.contains(interval, arrival, heading));
+    may_be_kept_ = may_be_kept_ || (dominated && (waiting || uses_slack_));
+    return dominated;
+  }
+
+  /// The part of a safe interval before which an arrival with this heading is not dominated.
+  SafeInterval part_before(int interval, double heading, SafeInterval safe) {
+    const double dominated_from = table_.dominated_from(interval, heading);
+    if (dominated_from < safe.end) {
+      safe.end = dominated_from;
+      may_be_kept_ = may_be_kept_ || uses_slack_;
+    }
+    return safe;
+  }
+
+  /// Whether one was discarded that the complete pass may keep.
+  bool may_be_kept() const { return may_be_kept_; }
+
+ private:
+  const DominanceTable& table_;
+  const Goals& goals_;
+  const Motion& motion_;
+  Pass pass_ = Pass::quick;
+  bool uses_slack_ = false;
+  bool may_be_kept_ = false;
+};
+
 /// The search for one robot; see the pseudo-code in the header.
 class Search {
  public:
-  enum class Pass : std::uint8_t { quick, complete };
-
   /// `exhausted`: the open list is empty. `incomplete`: it is empty, but the quick pass discarded an arrival
   /// that the complete pass may keep. `stopped`: by the stop condition or the limit of expansions.
   enum class Outcome : std::uint8_t { found, exhausted, incomplete, stopped };
@@ -35,27 +146,22 @@ class Search {
         motion_(space.vertices().motion()),
         limits_(limits),
         stop_(stop),
-        is_costly_(table.is_costly() || motion_.linear_inertia.is_limited),
+        has_slow_queries_(table.is_costly() || motion_.linear_inertia.is_limited),
         state_(std::move(state)),
         goals_(space, limits.horizon, state_),
         successors_(table, space, goals_, state_, stop),
-        pause_(limits.no_path_test == nullptr ? limits.max_expansions
-                                              : std::min(limits.max_expansions, SearchLimits::kFirstTest)) {}
+        dominated_(state_.dominance, goals_, motion_),
+        end_(limits),
+        next_check_(limits.no_path_test == nullptr
+                        ? limits.max_expansions
+                        : std::min(limits.max_expansions, SearchLimits::kFirstTest)) {}
 
   Outcome run(Pass pass);
-  Trajectory trajectory() const { return goals_.trajectory_to(end_); }
+  Trajectory trajectory() const { return goals_.trajectory_to(end_.label()); }
   std::int64_t expansions() const { return expansions_; }
   SearchState take_state() { return std::move(state_); }
 
  private:
-  /// f orders the open list; h is the estimated cost to the goal; `cost` estimates the cost of the whole
-  /// path, without the heuristic weight. Seconds.
-  struct Evaluation {
-    double f;
-    double h;
-    double cost;
-  };
-
   bool begin(Pass pass);
   bool can_serve_all();
   void label_start();
@@ -68,59 +174,48 @@ class Search {
   LabelId settle(const OpenEntry& entry);
   LabelId add_label(const Label& label);
 
-  bool goal_suffices() const;
-  bool rest_suffices() const;
-  bool finish_at_rest();
-  std::optional<double> earliest_departure(const OpenEntry& entry);
-  bool is_dominated(int interval, double arrival, double heading, double f);
   Evaluation evaluate(PlaceId id, int interval, double arrival, double heading) const;
 
   SearchSpace& space_;
   const Motion& motion_;
   const SearchLimits& limits_;
   const StopCondition& stop_;
-  const bool is_costly_;  // to ask the reservations
+  const bool has_slow_queries_;  // of the reservations
   SearchState state_;
   Goals goals_;
   Successors successors_;
 
-  Pass pass_ = Pass::quick;
-  bool use_slack_ = false;
-  bool stopped_ = false;                // while a pass was prepared
-  std::int64_t expansions_ = 0;         // of all passes
-  std::int64_t pause_;                  // expansions after which the limits are looked at
-  bool incomplete_ = false;             // the quick pass discarded an arrival that the complete pass may keep
-  EntryId best_entry_ = EntryId::none;  // the cheapest timed one into the interval in which a path ends
-  double best_cost_ = kForever;         // of it
-  LabelId rest_ = LabelId::none;        // the best label to rest at beyond the horizon
-  double best_rest_ = kForever;         // its f
-  LabelId end_ = LabelId::none;         // of the path that was found
+  DominatedArrivals dominated_;
+  PathEnd end_;
+  bool stopped_ = false;         // while a pass was prepared
+  std::int64_t expansions_ = 0;  // of all passes
+  std::int64_t next_check_;      // of the limits, after so many expansions
 };
 
 Search::Outcome Search::run(Pass pass) {
   if (!begin(pass)) return stopped_ ? Outcome::stopped : Outcome::exhausted;
   label_start();
-  for (int step = 1; end_ == LabelId::none; ++step) {
+  for (int step = 1; !end_.is_found(); ++step) {
     if (state_.open.empty()) {
-      if (finish_at_rest()) break;
-      return incomplete_ ? Outcome::incomplete : Outcome::exhausted;
+      if (end_.rest()) break;
+      return dominated_.may_be_kept() ? Outcome::incomplete : Outcome::exhausted;
     }
-    if ((step % kStopStride == 0 || is_costly_) && stop_.met()) return Outcome::stopped;
-    if (expansions_ >= pause_) {
+    if ((step % kStopStride == 0 || has_slow_queries_) && stop_.met()) return Outcome::stopped;
+    if (expansions_ >= next_check_) {
       if (expansions_ >= limits_.max_expansions) {
-        if (finish_at_rest()) break;
+        if (end_.rest()) break;
         return Outcome::stopped;
       }
       if (limits_.no_path_test->no_path(expansions_)) return Outcome::exhausted;
-      pause_ = std::min(limits_.max_expansions, 2 * expansions_);
+      next_check_ = std::min(limits_.max_expansions, 2 * expansions_);
     }
-    if (goal_suffices()) {
-      settle(state_.open[best_entry_]);
+    const double f = state_.open.min_f();
+    if (end_.goal_suffices(f, expansions_)) {
+      settle(state_.open[end_.best_entry()]);
       break;
     }
-    if (rest_suffices() && finish_at_rest()) break;
+    if (end_.rest_suffices(f, expansions_) && end_.rest()) break;
 
-    const double f = state_.open.min_f();
     OpenEntry entry = state_.open.pop();
     if (entry.timed()) {
       if (state_.dominance.is_dominated(entry.timed_arrival)) continue;
@@ -129,7 +224,7 @@ Search::Outcome Search::run(Pass pass) {
       state_.dominance.add(entry.interval, entry.arrival, state_.edges[entry.edge].move(entry.kind).heading);
     }
     const LabelId label = settle(entry);
-    if (end_ == LabelId::none) expand(label);
+    if (!end_.is_found()) expand(label);
   }
   return Outcome::found;
 }
@@ -137,16 +232,11 @@ Search::Outcome Search::run(Pass pass) {
 /// Prepares a pass. Returns false if the stop condition is met, or if the last goal has no safe interval
 /// without end, or another one has none that is long enough; with a horizon, the path may end elsewhere.
 bool Search::begin(Pass pass) {
-  pass_ = pass;
-  use_slack_ = pass == Pass::quick && limits_.dominance_slack > 0.0;
-  incomplete_ = false;
-  best_entry_ = EntryId::none;
-  best_cost_ = kForever;
-  rest_ = LabelId::none;
-  best_rest_ = kForever;
-  end_ = LabelId::none;
+  const bool uses_slack = pass == Pass::quick && limits_.dominance_slack > 0.0;
+  dominated_.begin(pass, uses_slack);
+  end_.begin();
   state_.clear(static_cast<std::size_t>(space_.vertex_count()));
-  const double slack = use_slack_ ? limits_.dominance_slack * space_.vertices().spacing() : 0.0;
+  const double slack = uses_slack ? limits_.dominance_slack * space_.vertices().spacing() : 0.0;
   state_.dominance.reset(space_.vertices().slowest_motion(), motion_.translation_time(slack));
   stopped_ = !goals_.begin(stop_);
   if (stopped_ || !goals_.end_at(successors_.goal_of(goals_.last_stage()))) return false;
@@ -188,7 +278,7 @@ void Search::label_start() {
   if (!(evaluate(start, interval, t, heading).cost - served < limits_.bound)) return;
   state_.dominance.add(interval, t, heading);
   const LabelId label = add_label({t, heading, t, LabelId::none, start, interval, false, false});
-  if (end_ == LabelId::none) expand(label);
+  if (!end_.is_found()) expand(label);
 }
 
 /// Offers all successors of a label.
@@ -226,7 +316,7 @@ inline bool Search::offer(EdgeId id, EdgeKind kind, int interval, bool next_inte
   const double arrival = departure + move.duration;
   const Evaluation evaluation = evaluate(edge.target, interval, arrival, move.heading);
   if (!(evaluation.cost < limits_.bound)) return false;
-  if (is_dominated(interval, arrival, move.heading, evaluation.f)) return false;
+  if (dominated_.contain(interval, arrival, move.heading, evaluation.f)) return false;
   state_.open.push({arrival, departure, id, interval, ArrivalId::none, kind, next_interval_follows},
                    evaluation.f, evaluation.h);
   return true;
@@ -242,10 +332,12 @@ bool Search::time_entry(OpenEntry& entry, double f) {
   if (is_shortcut) successors_.test_sight(edge);
   if (entry.next_interval_follows) offer_from(entry.edge, entry.interval + 1);
   // An arrival that dominates a shortcut also dominates the local edge.
-  if (is_dominated(entry.interval, entry.arrival, move.heading, f)) return false;
+  if (dominated_.contain(entry.interval, entry.arrival, move.heading, f)) return false;
 
   const double lower_bound = entry.arrival;
-  const auto departure = earliest_departure(entry);
+  const SafeInterval& safe = state_.intervals[entry.interval];
+  const auto departure =
+      successors_.earliest_departure(entry, dominated_.part_before(entry.interval, move.heading, safe));
   if (departure) {
     entry.departure = *departure;
     entry.arrival = *departure + move.duration;
@@ -261,15 +353,12 @@ bool Search::time_entry(OpenEntry& entry, double f) {
 void Search::push_timed(OpenEntry entry, double f_lower_bound) {
   const Edge& edge = state_.edges[entry.edge];
   const double heading = edge.move(entry.kind).heading;
-  if (is_dominated(entry.interval, entry.arrival, heading, f_lower_bound)) return;
+  if (dominated_.contain(entry.interval, entry.arrival, heading, f_lower_bound)) return;
   const Evaluation evaluation = evaluate(edge.target, entry.interval, entry.arrival, heading);
   if (!(evaluation.cost < limits_.bound)) return;
   entry.timed_arrival = state_.dominance.add(entry.interval, entry.arrival, heading);
   const EntryId id = state_.open.push(entry, evaluation.f, evaluation.h);
-  if (goals_.is_end(edge.target, entry.interval) && evaluation.cost < best_cost_) {
-    best_entry_ = id;
-    best_cost_ = evaluation.cost;
-  }
+  if (goals_.is_end(edge.target, entry.interval)) end_.offer(id, evaluation.cost);
 }
 
 /// Turns an entry into a label.
@@ -284,71 +373,19 @@ LabelId Search::settle(const OpenEntry& entry) {
 LabelId Search::add_label(const Label& label) {
   const LabelId id = state_.labels.push_back(label);
   if (goals_.is_end(label.place, label.interval)) {
-    end_ = id;
+    end_.set(id);
   } else if (goals_.has_horizon() && goals_.may_rest_at(label)) {
     const double t_rest = std::max(label.arrival, limits_.horizon);
-    const Evaluation evaluation = evaluate(label.place, label.interval, t_rest, label.heading);
-    if (evaluation.f < best_rest_ && evaluation.cost < limits_.bound) {
-      best_rest_ = evaluation.f;
-      rest_ = id;
-    }
+    end_.offer_rest(id, evaluate(label.place, label.interval, t_rest, label.heading));
     // Its f is the smallest of all; what follows it lies beyond the horizon.
-    if (label.arrival >= limits_.horizon) end_ = rest_;
+    if (label.arrival >= limits_.horizon) end_.rest();
   }
   return id;
 }
 
-/// Returns whether the cheapest timed path to the goal is within the suboptimality bound.
-bool Search::goal_suffices() const {
-  if (best_entry_ == EntryId::none) return false;
-  const double suboptimality =
-      limits_.suboptimality + limits_.suboptimality_growth * static_cast<double>(expansions_);
-  return best_cost_ <= (1.0 + suboptimality) * state_.open.min_f();
-}
-
-/// Returns whether no entry promises much more than the best label to rest at. What is accepted relates to
-/// the time up to the horizon, as the way beyond it is the same for all.
-bool Search::rest_suffices() const {
-  if (rest_ == LabelId::none) return false;
-  const double growth = kRestGrowth * limits_.suboptimality_growth * static_cast<double>(expansions_);
-  return best_rest_ <= state_.open.min_f() + growth * limits_.horizon;
-}
-
-/// Ends the path at the best label to rest at, if there is one.
-bool Search::finish_at_rest() {
-  end_ = rest_;
-  return end_ != LabelId::none;
-}
-
-/// The earliest departure that arrives in the entry's interval before the arrival would be dominated; none if
-/// there is no such departure, or if obstacles block the shortcut.
-std::optional<double> Search::earliest_departure(const OpenEntry& entry) {
-  SafeInterval target = state_.intervals[entry.interval];
-  const double heading = state_.edges[entry.edge].move(entry.kind).heading;
-  const double dominated_from = state_.dominance.dominated_from(entry.interval, heading);
-  if (dominated_from < target.end) {
-    target.end = dominated_from;
-    incomplete_ = incomplete_ || use_slack_;
-  }
-  return successors_.earliest_departure(entry, target);
-}
-
-/// Returns whether the arrival is dominated. Sets `incomplete_` if the complete pass may keep it.
-inline bool Search::is_dominated(int interval, double arrival, double heading, double f) {
-  if (state_.dominance.empty(interval)) return false;
-  // The quick pass keeps one label per interval while no path ends before time f, because a goal is not free
-  // yet or has to wait. An earlier arrival would gain nothing.
-  const bool waiting = pass_ == Pass::quick && f <= goals_.release();
-  const bool dominated =
-      waiting || state_.dominance.dominated_from(interval, heading) <= arrival + kSameTime ||
-      (motion_.wait_before_move > 0.0 && state_.dominance.contains(interval, arrival, heading));
-  incomplete_ = incomplete_ || (dominated && (waiting || use_slack_));
-  return dominated;
-}
-
 /// h estimates the seconds from an arrival to the end of the last service, or to rest in the pose of the last
 /// goal if that has none; without other robots.
-inline Search::Evaluation Search::evaluate(PlaceId id, int interval, double arrival, double heading) const {
+inline Evaluation Search::evaluate(PlaceId id, int interval, double arrival, double heading) const {
   const Place& place = state_.places[id];
   const double h =
       place.any_heading ? place.estimate.seconds : place.estimate.with_rotation(heading, motion_);
@@ -366,8 +403,8 @@ inline Search::Evaluation Search::evaluate(PlaceId id, int interval, double arri
 
 SearchResult AaSipp::run(SearchSpace& space, const SearchLimits& limits, const StopCondition& stop) {
   Search search(table_, space, limits, stop, std::move(state_));
-  Search::Outcome outcome = search.run(Search::Pass::quick);
-  if (outcome == Search::Outcome::incomplete && limits.thorough) outcome = search.run(Search::Pass::complete);
+  Search::Outcome outcome = search.run(Pass::quick);
+  if (outcome == Search::Outcome::incomplete && limits.thorough) outcome = search.run(Pass::complete);
   SearchResult result;
   if (outcome == Search::Outcome::found) result.trajectory = search.trajectory();
   result.complete = outcome != Search::Outcome::stopped;

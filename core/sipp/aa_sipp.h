@@ -76,15 +76,15 @@ struct SearchResult {
 ///     label the start and expand it                          label_start
 ///     while OPEN is not empty:                               run
 ///       if the best timed entry at the end costs at most (1 + suboptimality) * min f: settle it, stop
-///                                                            goal_suffices
+///                                                            PathEnd::goal_suffices
 ///       with a horizon: if no entry promises more than the best label to rest at, stop there
-///                                                            rest_suffices
+///                                                            PathEnd::rest_suffices
 ///       entry <- OPEN.pop()                                  smallest f = g + heuristic_weight * h
 ///       if entry is not timed:                               time_entry: lazy, as in Lazy Theta*
 ///         if it is a shortcut, test the line of sight        Successors::test_sight
 ///                                                              ["... w.r.t. static obstacles"]
 ///         offer the same edge into the target's next safe interval   ["Computing intervals"]
-///         if an arrival in the same interval dominates g: continue
+///         if an arrival in the same interval dominates g: continue       DominatedArrivals
 ///         g <- earliest arrival: rotate, wait, translate     Successors::earliest_departure
 ///                                     ["... w.r.t. dynamic obstacles and computing earliest arrival time"]
 ///         if g rose above its lower bound, or there is no departure:

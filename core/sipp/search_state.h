@@ -56,22 +56,23 @@ struct Label {
 /// added wait, within the label's safe interval, and arrives within the target's. A move in the direction of
 /// the translation before it may depart at once: then both form one translation, which has one added wait.
 struct Move {
-  double heading = 0.0;             // of the robot
-  double duration = 0.0;            // seconds, > 0
-  double ready = 0.0;               // earliest departure after the rotation and the added wait
-  double latest = 0.0;              // latest departure: the end of the label's safe interval
-  bool reverse = false;             // backwards
-  bool continues_straight = false;  // without added wait, from `arrival` on
-  double arrival = kForever;        // of the robot at the label
+  double heading = 0.0;              // of the robot
+  double duration = 0.0;             // seconds, > 0
+  double ready = 0.0;                // earliest departure after the rotation and the added wait
+  double latest = 0.0;               // latest departure: the end of the label's safe interval
+  bool reverse = false;              // backwards
+  bool continues_straight = false;   // without added wait, from `at_source_from` on
+  double at_source_from = kForever;  // arrival of the robot at the label
 
   double latest_into(const SafeInterval& target) const { return std::min(latest, target.end - duration); }
   double ready_for(const SafeInterval& target) const { return std::max(ready, target.begin - duration); }
   bool may_continue_into(const SafeInterval& target) const {
-    return continues_straight && arrival + duration >= target.begin && arrival <= latest_into(target);
+    return continues_straight && at_source_from + duration >= target.begin &&
+           at_source_from <= latest_into(target);
   }
   /// A lower bound of the departure, without regard to robots on the way; kForever if the move is impossible.
   double earliest_into(const SafeInterval& target) const {
-    if (may_continue_into(target)) return arrival;
+    if (may_continue_into(target)) return at_source_from;
     return ready_for(target) <= latest_into(target) ? ready_for(target) : kForever;
   }
 };

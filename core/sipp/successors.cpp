@@ -159,7 +159,7 @@ inline Move Successors::move_between(LabelId from, PlaceId target, bool reverse)
   move.latest = changes_load_ ? goals_.latest_departure(label) : state_.intervals[label.interval].end;
   move.continues_straight = may_continue_ && label.by_translation && label.reverse == reverse &&
                             angle_between(label.heading, move.heading) <= kSameHeading;
-  move.arrival = label.arrival;
+  move.at_source_from = label.arrival;
   return move;
 }
 
@@ -180,7 +180,7 @@ std::optional<double> Successors::earliest_departure(const OpenEntry& entry,
                      state_.places[edge.target].position};
   const int stage = state_.places[edge.target].stage;
   if (move.may_continue_into(target)) {
-    const auto at_once = departure(stage, path, move.duration, move.arrival, move.arrival);
+    const auto at_once = departure(stage, path, move.duration, move.at_source_from, move.at_source_from);
     if (at_once) return at_once;
   }
   const double begin = move.ready_for(target), latest = move.latest_into(target);
