@@ -2,6 +2,17 @@
 
 // A Monte-Carlo study: a plan is executed many times with other disturbances, in continuous time and without
 // time steps, and each execution is checked by the formulas of the checker.
+//
+// A run ends when no robot can go on, which its policy decides:
+// - `open_loop`, `absorb_waits`: when each robot has executed all of its actions (`execute_alone`).
+// - `dependencies`: when no robot is ready to go on and no event of a drive is left
+//   (`DependentExecution::run` in execute_dependencies.cpp). A robot that still has actions then waits for
+//   ever and has not arrived: a deadlock.
+// - `clock_stop`: when every robot has ended the last phase of its last action (`ClockedExecution::run` in
+//   execute_with_clock.cpp). All robots arrive.
+// A robot's end is the last knot of its progress (`ExecutedProgress::end`): it has executed its last action,
+// or waits for ever. There it rests, and so the check of a run has no end: it covers all time
+// (`executed_legs`). A run that the stop condition ends has no outcome and does not count.
 
 #include <cstddef>
 #include <cstdint>
