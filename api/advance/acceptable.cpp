@@ -31,30 +31,30 @@ bool drives(const core::Robot& robot) {
 class Mending {
  public:
   Mending(AdvanceRequest& request, std::vector<core::Robot>& robots,
-          const std::vector<std::vector<Action>>& braking, core::MapCache* maps, core::Work& stop)
+          const std::vector<std::vector<Action>>& braking, core::MapCache* maps, core::Work& work)
       : request_(request),
         robots_(robots),
         braking_(braking),
-        stop_(stop),
-        map_(maps != nullptr ? maps->map_of(std::move(request.fleet.map->grid), stop.reading())
-                             : core::static_map(std::move(request.fleet.map->grid), stop.reading())),
+        work_(work),
+        map_(maps != nullptr ? maps->map_of(std::move(request.fleet.map->grid), work.reading())
+                             : core::static_map(std::move(request.fleet.map->grid), work.reading())),
         start_overlap_(request.fleet.options.plan.start_overlap),
         reports_(request.fleet.options.invalid_robots == InvalidRobots::report) {}
 
   Circumstances run() {
-    if (!map_) stop_.look();
+    if (!map_) work_.look();
     const std::vector<double> margins =
-        margins_of(request_.robots, request_.executions, request_.moment, robots_, stop_);
-    while (map_ && !stop_.met() && mend_all()) clear_commitments(robots_, margins, braking_, stop_);
+        margins_of(request_.robots, request_.executions, request_.moment, robots_, work_);
+    while (map_ && !work_.met() && mend_all()) clear_commitments(robots_, margins, braking_, work_);
     return std::move(found_);
   }
 
  private:
   bool mend_all() {
-    auto made = core::Problem::create(map_, robots_in_map(), conditions(), stop_.reading());
+    auto made = core::Problem::create(map_, robots_in_map(), conditions(), work_.reading());
     const auto* faults = std::get_if<core::ProblemFaults>(&made);
     if (faults == nullptr) return false;
-    if (!faults->finished) stop_.look();
+    if (!faults->finished) work_.look();
     bool any = false;
     for (const ProblemFault& fault : faults->listed) any = mend(fault) || any;
     return any;
@@ -66,7 +66,7 @@ class Mending {
     const WorldFrame& frame = request_.fleet.map->frame;
     for (std::size_t k = 0; k < robots_.size(); ++k) {
       const core::Robot& next = robots_[k];
-      if (stop_.met_after(kWorkOfAnAction * (1 + next.committed.size() + next.goal_count()))) break;
+      if (work_.met_after(kWorkOfAnAction * (1 + next.committed.size() + next.goal_count()))) break;
       core::Robot robot = request_.fleet.robots[k].robot;
       robot.previous.reset();
       robot.radius = next.radius;
@@ -151,7 +151,7 @@ class Mending {
   AdvanceRequest& request_;
   std::vector<core::Robot>& robots_;
   const std::vector<std::vector<Action>>& braking_;  // by robot
-  core::Work& stop_;
+  core::Work& work_;
   std::shared_ptr<const core::StaticMap> map_;
   double start_overlap_;
   bool reports_;  // robots whose starts are at fault
@@ -162,20 +162,20 @@ class Mending {
 
 Circumstances make_acceptable(AdvanceRequest& request, std::vector<core::Robot>& robots,
                               const std::vector<std::vector<Action>>& braking, core::MapCache* maps,
-                              core::Work& stop) {
+                              core::Work& work) {
   const bool any_observed =
       std::any_of(request.executions.begin(), request.executions.end(),
                   [](const Execution& execution) { return execution.measured || execution.reported; });
   Circumstances found;
   if (!any_observed) {
-    found.unavoidable = unavoidable_collisions(robots, braking, stop);
+    found.unavoidable = unavoidable_collisions(robots, braking, work);
     // Robots that could not stop in time overlap later on, whether they are observed then or not.
     const bool any_overlap = std::any_of(found.unavoidable.begin(), found.unavoidable.end(),
                                          [](const Collision& collision) { return collision.t == 0.0; });
     if (!any_overlap) return found;
   }
-  found = Mending(request, robots, braking, maps, stop).run();
-  found.unavoidable = unavoidable_collisions(robots, braking, stop);
+  found = Mending(request, robots, braking, maps, work).run();
+  found.unavoidable = unavoidable_collisions(robots, braking, work);
   return found;
 }
 

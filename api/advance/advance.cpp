@@ -347,10 +347,10 @@ core::Robot advanced(const core::Robot& robot, const Execution& execution, const
 
 std::vector<Actions> braking_of(const std::vector<core::Robot>& robots,
                                 const std::vector<Execution>& executions, const Moment& moment,
-                                core::Work& stop) {
+                                core::Work& work) {
   std::vector<Actions> braking(robots.size());
   for (std::size_t k = 0; k < robots.size(); ++k) {
-    if (stop.met_after(kWorkOfAnAction * (1 + executions[k].actions.size()))) break;
+    if (work.met_after(kWorkOfAnAction * (1 + executions[k].actions.size()))) break;
     braking[k] = braking_of(robots[k], executions[k], moment);
   }
   return braking;
@@ -358,12 +358,12 @@ std::vector<Actions> braking_of(const std::vector<core::Robot>& robots,
 
 std::optional<double> standing_time(const std::vector<core::Robot>& robots,
                                     const std::vector<Execution>& executions, const Moment& moment,
-                                    core::Work& stop) {
+                                    core::Work& work) {
   std::optional<double> until;
   for (std::size_t k = 0; k < robots.size(); ++k) {
     const Execution& execution = executions[k];
     if (!is_released(execution)) continue;
-    if (stop.met_after(kWorkOfAnAction * (1 + execution.actions.size()))) break;
+    if (work.met_after(kWorkOfAnAction * (1 + execution.actions.size()))) break;
     until = std::max(until.value_or(0.0), moment.commit.value_or(0.0));
     const Located located = locate(robots[k], execution, moment);
     if (located.is_elsewhere) continue;
@@ -386,13 +386,13 @@ Place place_of(const core::Robot& robot, const Execution& execution, const Momen
 
 std::vector<double> margins_of(const std::vector<core::Robot>& robots,
                                const std::vector<Execution>& executions, const Moment& moment,
-                               const std::vector<core::Robot>& next, core::Work& stop) {
+                               const std::vector<core::Robot>& next, core::Work& work) {
   // Robots that are released to places where they touch may go there. Two of them stay within the tolerance.
   constexpr double kReleased = -0.4 * core::kContactTolerance;
   std::vector<double> margins(robots.size(), moment.stand_until ? kReleased : 0.0);
   if (moment.stand_until) return margins;
   for (std::size_t k = 0; k < next.size(); ++k) {
-    if (stop.met_after(1 + executions[k].actions.size())) break;
+    if (work.met_after(1 + executions[k].actions.size())) break;
     const core::Pose planned = planned_pose(robots[k], executions[k].actions, moment.at);
     const double off = (next[k].start.position - planned.position).norm();
     margins[k] = robots[k].vicinity + moment.inflation - std::min(off, 0.5 * moment.inflation);
@@ -402,14 +402,14 @@ std::vector<double> margins_of(const std::vector<core::Robot>& robots,
 
 std::vector<core::Robot> advanced(const std::vector<core::Robot>& robots,
                                   const std::vector<Execution>& executions, const Moment& moment,
-                                  const std::vector<Actions>& braking, core::Work& stop) {
+                                  const std::vector<Actions>& braking, core::Work& work) {
   std::vector<core::Robot> next;
   next.reserve(robots.size());
   for (std::size_t k = 0; k < robots.size(); ++k) {
-    if (stop.met_after(kWorkOfAnAction * (1 + executions[k].actions.size()))) return next;
+    if (work.met_after(kWorkOfAnAction * (1 + executions[k].actions.size()))) return next;
     next.push_back(advanced(robots[k], executions[k], moment));
   }
-  clear_commitments(next, margins_of(robots, executions, moment, next, stop), braking, stop);
+  clear_commitments(next, margins_of(robots, executions, moment, next, work), braking, work);
   return next;
 }
 

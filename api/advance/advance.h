@@ -68,7 +68,7 @@ core::Robot advanced(const core::Robot& robot, const Execution& execution, const
 /// for one that stands, by its plan or because it says so, turns, or is not on its path.
 std::vector<std::vector<core::Action>> braking_of(const std::vector<core::Robot>& robots,
                                                   const std::vector<Execution>& executions,
-                                                  const Moment& moment, core::Work& stop);
+                                                  const Moment& moment, core::Work& work);
 
 /// Returns until when all robots stand, if some have reported how far they are released: until the last of
 /// them has come to where it may drive to, and for the horizon of commitment at least. So nobody leaves what
@@ -76,7 +76,7 @@ std::vector<std::vector<core::Action>> braking_of(const std::vector<core::Robot>
 /// in front of a robot that nobody can stop any more. Returns none if nobody has reported that.
 std::optional<double> standing_time(const std::vector<core::Robot>& robots,
                                     const std::vector<Execution>& executions, const Moment& moment,
-                                    core::Work& stop);
+                                    core::Work& work);
 
 /// Returns by robot what it keeps around its disk while it is committed: its vicinity and the inflation,
 /// metres. Inflation is there for robots that are not where their plans have them, so it is used up by as
@@ -84,14 +84,14 @@ std::optional<double> standing_time(const std::vector<core::Robot>& robots,
 /// of a margin: then there is none.
 std::vector<double> margins_of(const std::vector<core::Robot>& robots,
                                const std::vector<Execution>& executions, const Moment& moment,
-                               const std::vector<core::Robot>& next, core::Work& stop);
+                               const std::vector<core::Robot>& next, core::Work& work);
 
 /// Returns the robots of the request of that moment. Committed actions end where they touch another robot
 /// that is committed or stands at the end of its commitment: see clear_commitments. `braking`: by robot, see
 /// braking_of.
 std::vector<core::Robot> advanced(const std::vector<core::Robot>& robots,
                                   const std::vector<Execution>& executions, const Moment& moment,
-                                  const std::vector<std::vector<core::Action>>& braking, core::Work& stop);
+                                  const std::vector<std::vector<core::Action>>& braking, core::Work& work);
 
 /// Returns where the robot is in its actions at the moment: as reported, otherwise as measured, otherwise as
 /// planned. A robot that has done all of them is at the end of the last one, and one without actions at the

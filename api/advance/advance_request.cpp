@@ -171,11 +171,11 @@ void parse_states(const JsonReader& list, const RobotNames& names, AdvanceReques
 }  // namespace
 
 std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, const Limits& limits,
-                                                    core::Work& stop) {
+                                                    core::Work& work) {
   AdvanceRequest read;
   read.request = root.require("request").object(kPlanRequestMembers);
   read.fleet = parse_fleet(read.request, limits, [&](const ParsedOptions& options) {
-    stop.set_budget(effective_budget(options, limits));
+    work.set_budget(effective_budget(options, limits));
   });
   Fleet& fleet = read.fleet;
   read.moment.at = root.require("at").number(kDuration).value_or(0.0);
@@ -196,7 +196,7 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
     read.executions[plan.robot].planned = true;
     leave_out_unfit_profiles(read.executions[plan.robot].actions);
   }
-  if (!read.request || root.fault_count() > 0 || stop.met()) return std::nullopt;
+  if (!read.request || root.fault_count() > 0 || work.met()) return std::nullopt;
   std::size_t corners = fleet.zones.size();
   for (const core::Zone& zone : fleet.zones) corners += zone.polygon.size();
   UniqueIds unique_ids;
@@ -204,7 +204,7 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
                              limits, unique_ids);
   for (ParsedRobot& robot : robots) {
     const std::size_t index = read.robots.size();
-    if (stop.met_after(corners)) return std::nullopt;
+    if (work.met_after(corners)) return std::nullopt;
     if (!read.executions[index].goals) read.goal_texts[index] = std::move(robot.goal_texts);
     read.executions[index].stop_distance = robot.stop_distance;
     read.executions[index].stays_when_served = robot.idle == Idle::stay;
@@ -225,7 +225,7 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
   }
   parse_states(root.find("states"), names, read);
   if (root.fault_count() > 0) return std::nullopt;
-  return stop.met() ? std::nullopt : std::optional(std::move(read));
+  return work.met() ? std::nullopt : std::optional(std::move(read));
 }
 
 namespace {

@@ -34,9 +34,9 @@ struct AdvanceRequest {
   JsonReader request;  // the member of the body
 };
 
-/// Reads the root of the document. Returns none if it has faults, or if its stop is met.
+/// Reads the root of the document. Returns none if it has faults, or if `work` is met.
 std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, const Limits& limits,
-                                                    core::Work& stop);
+                                                    core::Work& work);
 
 /// What is wrong with where robots are, and cannot be mended.
 struct Circumstances {
@@ -48,10 +48,10 @@ struct Circumstances {
 /// Ends committed actions of robots that were measured, or have reported where they are, before they meet
 /// walls or zones, or break the rules of zones, as /v1/plan judges it; then those of others that would drive
 /// into them, see clear_commitments. `request`: that the robots follow from, whose map is taken. `braking`:
-/// by robot, see braking_of. `maps`: those of earlier requests; may be null. Ends early when the stop is met.
+/// by robot, see braking_of. `maps`: those of earlier requests; may be null. Ends early when `work` is met.
 Circumstances make_acceptable(AdvanceRequest& request, std::vector<core::Robot>& robots,
                               const std::vector<std::vector<core::Action>>& braking, core::MapCache* maps,
-                              core::Work& stop);
+                              core::Work& work);
 
 /// Returns the request of the moment: that of the body with the starts, goals, committed and previous actions
 /// of these robots, what is left of its obstacles, and the options that it needs where they are; everything

@@ -140,7 +140,7 @@ Stopping stopping(const core::Robot& robot, const std::vector<core::Action>& bra
 
 class CollisionSearch {
  public:
-  CollisionSearch(const std::vector<core::Robot>& robots, core::Work& stop) : robots_(robots), stop_(stop) {}
+  CollisionSearch(const std::vector<core::Robot>& robots, core::Work& work) : robots_(robots), work_(work) {}
 
   void add(Stopping robot) { stopping_.push_back(std::move(robot)); }
 
@@ -148,7 +148,7 @@ class CollisionSearch {
     std::vector<Collision> found;
     for (std::size_t i = 0; i < stopping_.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
-        if (stop_.met_after(1) || found.size() >= kMostPairs) return found;
+        if (work_.met_after(1) || found.size() >= kMostPairs) return found;
         if (const auto t = begin_of_overlap(j, i)) found.push_back({j, i, *t});
       }
     }
@@ -177,7 +177,7 @@ class CollisionSearch {
 
   std::optional<double> first_contact(const std::vector<Piece>& mine, const std::vector<Piece>& theirs) {
     std::optional<double> contact;
-    visit_in_time(mine, theirs, stop_, [&](const Piece& piece, const Piece& other) {
+    visit_in_time(mine, theirs, work_, [&](const Piece& piece, const Piece& other) {
       contact = first_overlap(piece, other, piece.radius + other.radius - core::kContactTolerance);
       return contact.has_value();
     });
@@ -185,7 +185,7 @@ class CollisionSearch {
   }
 
   const std::vector<core::Robot>& robots_;
-  core::Work& stop_;
+  core::Work& work_;
   std::vector<Stopping> stopping_;  // by robot
 };
 
@@ -193,10 +193,10 @@ class CollisionSearch {
 
 std::vector<Collision> unavoidable_collisions(const std::vector<core::Robot>& robots,
                                               const std::vector<std::vector<core::Action>>& braking,
-                                              core::Work& stop) {
-  CollisionSearch search(robots, stop);
+                                              core::Work& work) {
+  CollisionSearch search(robots, work);
   for (std::size_t k = 0; k < robots.size(); ++k) {
-    if (stop.met_after(kWorkOfAPiece * (1 + robots[k].committed.size()))) return {};
+    if (work.met_after(kWorkOfAPiece * (1 + robots[k].committed.size()))) return {};
     search.add(stopping(robots[k], braking[k]));
   }
   return search.run();
@@ -245,8 +245,8 @@ std::optional<Meeting> overlap_by_growth(const Piece& a, const Piece& b, double 
 class Clearing {
  public:
   Clearing(std::vector<core::Robot>& robots, const std::vector<double>& margins,
-           const std::vector<Actions>& braking, core::Work& stop)
-      : robots_(robots), margins_(margins), braking_(braking), stop_(stop), waits_(robots.size(), true) {
+           const std::vector<Actions>& braking, core::Work& work)
+      : robots_(robots), margins_(margins), braking_(braking), work_(work), waits_(robots.size(), true) {
     for (const core::Robot& robot : robots) {
       reach_.push_back(core::largest_radius(robot) + margins[pieces_.size()] + driven(robot));
       waiting_.push_back(pieces_.size());
@@ -260,7 +260,7 @@ class Clearing {
       waiting_.pop_back();
       waits_[robot] = false;
       for (std::size_t other = 0; other < robots_.size(); ++other) {
-        if (stop_.met_after(kWorkOfAPiece)) return;
+        if (work_.met_after(kWorkOfAPiece)) return;
         if (other != robot) part(robot, other);
       }
     }
@@ -328,7 +328,7 @@ class Clearing {
     double early = cannot_stop_before(robot);
     if (cannot_stop_before(other) == 0.0 || early >= late || may_stand(robot, late, other)) return;
     if (!may_stand(robot, early, other)) return;
-    for (int k = 0; k < kHalvings && !stop_.met(); ++k) {
+    for (int k = 0; k < kHalvings && !work_.met(); ++k) {
       const double middle = 0.5 * (early + late);
       (may_stand(robot, middle, other) ? early : late) = middle;
     }
@@ -340,10 +340,10 @@ class Clearing {
     const std::vector<Piece>& mine = pieces_[robot];
     const auto at_t =
         std::find_if(mine.begin(), mine.end(), [&](const Piece& piece) { return t < piece.end; });
-    stop_.met_after(kWorkOfAPiece * (mine.size() + pieces_[other].size()));
+    work_.met_after(kWorkOfAPiece * (mine.size() + pieces_[other].size()));
     Piece stay{t, mine.back().end, at_t->at(t), {0.0, 0.0}, at_t->radius};
     if (robots_[robot].linear_inertia().is_limited) {
-      stop_.met_after(kWorkOfAnAction * robots_[robot].committed.size());
+      work_.met_after(kWorkOfAnAction * robots_[robot].committed.size());
       const Actions stopped = stopped_by(robots_[robot].committed, t);
       stay.from = stopped.empty() ? robots_[robot].start.position : stopped.back().to.position;
     }
@@ -367,7 +367,7 @@ class Clearing {
              (meeting.second_moves && shortens(other, when_it_can_stop(other, meeting.t)));
     };
     std::optional<Meeting> found;
-    visit_in_time(mine, committed(theirs), stop_, [&](const Piece& piece, const Piece& theirs_then) {
+    visit_in_time(mine, committed(theirs), work_, [&](const Piece& piece, const Piece& theirs_then) {
       const double distance = piece.radius + theirs_then.radius + margin;
       const auto grown = overlap_by_growth(piece, theirs_then, distance);
       if (grown && ends_one(*grown)) {
@@ -391,7 +391,7 @@ class Clearing {
     // Less than where one has stopped already that can: rounding must not end the commitment of the other.
     const double contact = std::min(0.0, margin(robot, other)) - 2.0 * kTouch;
     std::optional<Meeting> found;
-    visit_in_time(certain, committed(theirs), stop_, [&](const Piece& piece, const Piece& theirs_then) {
+    visit_in_time(certain, committed(theirs), work_, [&](const Piece& piece, const Piece& theirs_then) {
       const auto t = first_overlap(piece, theirs_then, piece.radius + theirs_then.radius + contact);
       if (!t) return false;
       const Meeting meeting{*t, piece.moves(), theirs_then.moves()};
@@ -415,7 +415,7 @@ class Clearing {
 
   void cut(std::size_t index, double t) {
     core::Robot& robot = robots_[index];
-    stop_.met_after(kWorkOfAPiece * pieces_[index].size());
+    work_.met_after(kWorkOfAPiece * pieces_[index].size());
     if (!shortens(index, t)) return;
     if (t < kNothing) t = 0.0;
     Actions stopped = stopped_by(robot.committed, t);
@@ -442,7 +442,7 @@ class Clearing {
   std::vector<core::Robot>& robots_;
   const std::vector<double>& margins_;   // by robot
   const std::vector<Actions>& braking_;  // by robot
-  core::Work& stop_;
+  core::Work& work_;
   std::vector<std::vector<Piece>> pieces_;
   std::vector<double> reach_;  // from the start, with disk and margin; of the commitment as it was
   std::vector<bool> waits_;    // for its comparison with all others
@@ -452,8 +452,8 @@ class Clearing {
 }  // namespace
 
 void clear_commitments(std::vector<core::Robot>& robots, const std::vector<double>& margins,
-                       const std::vector<std::vector<Action>>& braking, core::Work& stop) {
-  Clearing(robots, margins, braking, stop).run();
+                       const std::vector<std::vector<Action>>& braking, core::Work& work) {
+  Clearing(robots, margins, braking, work).run();
 }
 
 }  // namespace fleetplan::api

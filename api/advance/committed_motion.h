@@ -52,13 +52,13 @@ std::vector<Piece> committed_pieces(const core::Robot& robot);
 std::optional<double> first_overlap(const Piece& a, const Piece& b, double distance);
 
 /// Calls visit(piece, other) for the pieces of two robots whose times overlap, in the order of time, until it
-/// returns true or the stop is met.
+/// returns true or `work` is met.
 template <class Visit>
-void visit_in_time(std::span<const Piece> pieces, std::span<const Piece> others, core::Work& stop,
+void visit_in_time(std::span<const Piece> pieces, std::span<const Piece> others, core::Work& work,
                    const Visit& visit) {
   std::size_t i = 0;
   for (std::size_t k = 0; k < pieces.size() && i < others.size();) {
-    if (stop.met_after(kWorkOfAPiece) || visit(pieces[k], others[i])) return;
+    if (work.met_after(kWorkOfAPiece) || visit(pieces[k], others[i])) return;
     others[i].end < pieces[k].end ? ++i : ++k;
   }
 }
@@ -73,10 +73,10 @@ struct Collision {
 /// Returns the pairs of robots that collide if all execute nothing but their commitments, and then stand:
 /// pairs that overlap already, and pairs of which one robot cannot stop in time. `braking`: by robot, see
 /// braking_of; a robot executes that, too, if its commitment ends before. Of many pairs, only the first are
-/// returned. Ends early when the stop is met.
+/// returned. Ends early when `work` is met.
 std::vector<Collision> unavoidable_collisions(const std::vector<core::Robot>& robots,
                                               const std::vector<std::vector<core::Action>>& braking,
-                                              core::Work& stop);
+                                              core::Work& work);
 
 /// Ends committed actions early, so that every robot may stay for ever where its commitment ends: none meets
 /// another one, nor passes where another one has ended. Whatever becomes of the plans behind the commitments,
@@ -84,8 +84,8 @@ std::vector<Collision> unavoidable_collisions(const std::vector<core::Robot>& ro
 /// committed. `margins`: metres, by robot, that they keep around their disks; robots that are nearer to each
 /// other at the moment keep half of what they have, or a quarter of the margins if they have that. `braking`:
 /// by robot, see braking_of; none of these commitments ends before, unless it collides with another
-/// commitment. Ends early when the stop is met.
+/// commitment. Ends early when `work` is met.
 void clear_commitments(std::vector<core::Robot>& robots, const std::vector<double>& margins,
-                       const std::vector<std::vector<core::Action>>& braking, core::Work& stop);
+                       const std::vector<std::vector<core::Action>>& braking, core::Work& work);
 
 }  // namespace fleetplan::api

@@ -112,51 +112,51 @@ constexpr std::array<std::string_view, 8> kRetimeMembers{
 }  // namespace
 
 Reply advance_endpoint(std::string_view body, const RequestContext& context) {
-  const auto next_request = [&](const JsonReader& root, core::Work& stop,
+  const auto next_request = [&](const JsonReader& root, core::Work& work,
                                 const AwaitTurn& await_turn) -> std::optional<std::string> {
-    auto request = parse_advance_request(root, context.limits, stop);
+    auto request = parse_advance_request(root, context.limits, work);
     if (!request || !await_turn()) return std::nullopt;
     Moment& moment = request->moment;
-    moment.stand_until = standing_time(request->robots, request->executions, moment, stop);
-    const auto braking = braking_of(request->robots, request->executions, moment, stop);
-    auto robots = advanced(request->robots, request->executions, moment, braking, stop);
-    if (stop.met()) return std::nullopt;
-    const Circumstances circumstances = make_acceptable(*request, robots, braking, context.maps, stop);
-    if (stop.met()) return std::nullopt;
-    return write_advanced(*request, robots, circumstances, stop);
+    moment.stand_until = standing_time(request->robots, request->executions, moment, work);
+    const auto braking = braking_of(request->robots, request->executions, moment, work);
+    auto robots = advanced(request->robots, request->executions, moment, braking, work);
+    if (work.met()) return std::nullopt;
+    const Circumstances circumstances = make_acceptable(*request, robots, braking, context.maps, work);
+    if (work.met()) return std::nullopt;
+    return write_advanced(*request, robots, circumstances, work);
   };
   return pure_endpoint(body, context, kAdvanceMembers, next_request);
 }
 
 Reply retime_endpoint(std::string_view body, const RequestContext& context) {
-  const auto retimed = [&](const JsonReader& root, core::Work& stop,
+  const auto retimed = [&](const JsonReader& root, core::Work& work,
                            const AwaitTurn& await_turn) -> std::optional<std::string> {
-    const auto request = parse_retime_request(root, context.limits, stop);
+    const auto request = parse_retime_request(root, context.limits, work);
     if (!request || !await_turn()) return std::nullopt;
     const auto times = core::retime(request->robots, core::executed_actions(request->robots, request->plans),
-                                    request->dependencies, request->states, request->rules, stop.reading());
+                                    request->dependencies, request->states, request->rules, work.reading());
     if (!times) return std::nullopt;
-    return write_retimed(*request, *times, stop);
+    return write_retimed(*request, *times, work);
   };
   return pure_endpoint(body, context, kRetimeMembers, retimed);
 }
 
 Reply vda5050_endpoint(std::string_view body, const RequestContext& context) {
-  const auto orders = [&](const JsonReader& root, core::Work& stop,
+  const auto orders = [&](const JsonReader& root, core::Work& work,
                           const AwaitTurn& await_turn) -> std::optional<std::string> {
-    const auto request = parse_vda5050_request(root, context.limits, stop);
+    const auto request = parse_vda5050_request(root, context.limits, work);
     if (!request || !await_turn()) return std::nullopt;
-    return write_orders(*request, stop);
+    return write_orders(*request, work);
   };
   return pure_endpoint(body, context, kVdaMembers, orders);
 }
 
 Reply import_vda5050_endpoint(std::string_view body, const RequestContext& context) {
-  const auto states = [&](const JsonReader& root, core::Work& stop,
+  const auto states = [&](const JsonReader& root, core::Work& work,
                           const AwaitTurn& await_turn) -> std::optional<std::string> {
-    const auto import = parse_vda5050_import(root, context.limits, stop);
+    const auto import = parse_vda5050_import(root, context.limits, work);
     if (!import || !await_turn()) return std::nullopt;
-    return write_states(*import, stop);
+    return write_states(*import, work);
   };
   return pure_endpoint(body, context, kVdaImportMembers, states);
 }

@@ -103,7 +103,7 @@ class StateReader {
 }  // namespace
 
 std::optional<RetimeRequest> parse_retime_request(const JsonReader& root, const Limits& limits,
-                                                  core::Work& stop) {
+                                                  core::Work& work) {
   RetimeRequest request;
   request.rules.wait_before_move = parse_options(root.find("options")).plan.wait_before_move;
   UniqueIds ids;
@@ -114,7 +114,7 @@ std::optional<RetimeRequest> parse_retime_request(const JsonReader& root, const 
   request.plans = parse_plans(plans, robots, WorldFrame{});
   for (core::RobotPlan& plan : request.plans) leave_out_unfit_profiles(plan.actions);
   request.rules.now = root.require("at").number(kDuration).value_or(0.0);
-  if (root.fault_count() > 0 || stop.met()) return std::nullopt;
+  if (root.fault_count() > 0 || work.met()) return std::nullopt;
   check_times(plans, request.plans);
   for (ParsedRobot& robot : robots) request.robots.push_back(std::move(robot.robot));
   request.dependencies = parse_dependencies(root.require("dependencies"), request.robots, request.plans);
@@ -122,7 +122,7 @@ std::optional<RetimeRequest> parse_retime_request(const JsonReader& root, const 
   for (const JsonReader item : root.require("states").array().items()) {
     if (const auto state = reader.read(item)) request.states.push_back(*state);
   }
-  if (root.fault_count() > 0 || stop.met()) return std::nullopt;
+  if (root.fault_count() > 0 || work.met()) return std::nullopt;
   return request;
 }
 
@@ -173,7 +173,7 @@ void write_visits_left(JsonWriter& json, const core::Robot& robot, core::Actions
 }  // namespace
 
 std::optional<std::string> write_retimed(const RetimeRequest& request,
-                                         const std::vector<core::RetimedRobot>& retimed, core::Work& stop) {
+                                         const std::vector<core::RetimedRobot>& retimed, core::Work& work) {
   // An action is as much work as reading so many bytes.
   constexpr std::size_t kWorkOfAnAction = 256;
   const auto actions = core::executed_actions(request.robots, request.plans);
@@ -181,7 +181,7 @@ std::optional<std::string> write_retimed(const RetimeRequest& request,
   JsonWriter json;
   json.begin_object().key("robots").begin_array();
   for (std::size_t k = 0; k < retimed.size(); ++k) {
-    if (stop.met_after(kWorkOfAnAction * (1 + actions[k].size()))) return std::nullopt;
+    if (work.met_after(kWorkOfAnAction * (1 + actions[k].size()))) return std::nullopt;
     json.begin_object().member("robot", request.robots[k].id);
     json.member("t_end", retimed[k].ends.empty() ? retimed[k].begin : retimed[k].ends.back());
     json.member("delay", retimed[k].delay);

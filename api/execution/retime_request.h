@@ -25,12 +25,12 @@ struct RetimeRequest {
   core::RetimeRules rules;
 };
 
-/// Reads the root of the document. Returns none if it has faults, or if its stop is met.
+/// Reads the root of the document. Returns none if it has faults, or if `work` is met.
 std::optional<RetimeRequest> parse_retime_request(const JsonReader& root, const Limits& limits,
-                                                  core::Work& stop);
+                                                  core::Work& work);
 
-/// Returns the answer of POST /v1/retime. `retimed` is by robot. Returns none if the stop is met.
+/// Returns the answer of POST /v1/retime. `retimed` is by robot. Returns none if `work` is met.
 std::optional<std::string> write_retimed(const RetimeRequest& request,
-                                         const std::vector<core::RetimedRobot>& retimed, core::Work& stop);
+                                         const std::vector<core::RetimedRobot>& retimed, core::Work& work);
 
 }  // namespace fleetplan::api

@@ -34,7 +34,7 @@ struct JsonError {
     malformed,  // the detail has line, column and byte
     too_deep,
     too_large,   // more values than any request needs
-    unfinished,  // the stop was met first; no detail
+    unfinished,  // the work was met first; no detail
   };
   Kind kind = Kind::malformed;
   std::string detail;
@@ -47,9 +47,9 @@ Result<JsonDocument, JsonError> read_json(std::string_view body, int max_depth, 
 /// Returns the values of a text that is JSON. Reads them several times as fast as the general parser, which
 /// megabytes of numbers or a large image need. Returns none if the text is not JSON, nests deeper than
 /// `max_depth`, has more than `max_values` values or a number beyond the range of doubles or of 18 digits, or
-/// if the stop is met. Then the general parser has the answer, and says what is wrong.
+/// if `work` is met. Then the general parser has the answer, and says what is wrong.
 std::optional<JsonTape> parse_valid_json(std::string_view text, std::size_t max_depth, std::size_t max_values,
-                                         core::Work& stop);
+                                         core::Work& work);
 
 /// Returns how many bytes from the begin are characters of a JSON string as they are (RFC 8259, section 7):
 /// valid UTF-8 without quotes, backslashes and control characters.
@@ -139,7 +139,7 @@ class JsonReader {
     return {pointer(), code, std::move(detail)};
   }
   /// The work that ends the reading of the document. The value may be absent.
-  core::Work& stop() const { return *document_->work; }
+  core::Work& work() const { return *document_->work; }
   /// Counts faults of the document that are not described.
   void count_more_faults(std::size_t faults) const { document_->faults.count_more(faults); }
   /// The number of faults of the document so far.

@@ -167,13 +167,13 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 /// not for this parser.
 class Parser {
  public:
-  Parser(std::string_view text, std::size_t max_depth, std::size_t max_values, core::Work& stop)
+  Parser(std::string_view text, std::size_t max_depth, std::size_t max_values, core::Work& work)
       : text_(text),
         at_(text.data()),
         end_(at_ + text.size()),
         max_depth_(max_depth),
         max_values_(max_values),
-        stop_(stop),
+        work_(work),
         tape_(text) {}
 
   std::optional<JsonTape> run() {
@@ -203,7 +203,7 @@ class Parser {
   bool pause() {
     for (; static_cast<std::size_t>(at_ - looked_at_) > core::Work::kStride;
          looked_at_ += core::Work::kStride) {
-      if (stop_.met_after(core::Work::kStride)) return true;
+      if (work_.met_after(core::Work::kStride)) return true;
     }
     return false;
   }
@@ -336,7 +336,7 @@ class Parser {
   const char* looked_at_ = text_.data();
   std::size_t max_depth_;
   std::size_t max_values_;
-  core::Work& stop_;
+  core::Work& work_;
   JsonTape tape_;
   std::vector<Frame> frames_;
   std::size_t values_ = 0;
@@ -345,8 +345,8 @@ class Parser {
 }  // namespace
 
 std::optional<JsonTape> parse_valid_json(std::string_view text, std::size_t max_depth, std::size_t max_values,
-                                         core::Work& stop) {
-  return Parser(text, max_depth, max_values, stop).run();
+                                         core::Work& work) {
+  return Parser(text, max_depth, max_values, work).run();
 }
 
 }  // namespace fleetplan::api

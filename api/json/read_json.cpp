@@ -88,7 +88,7 @@ class DuplicateKeys {
   JsonDocument& document_;
 };
 
-/// Reports every member whose key an earlier member of the same object has; until the document's stop is met.
+/// Reports every member whose key an earlier member of the same object has; until the document's work is met.
 /// Takes n log n time for n members, whatever their keys.
 void report_duplicate_keys(JsonDocument& document) { DuplicateKeys(document).report(); }
 
@@ -121,8 +121,8 @@ class Input {
     Input* input_;  // all iterators are at its position; null: the end
   };
 
-  Input(std::string_view text, core::Work& stop)
-      : begin_(text.data()), at_(begin_), pause_(begin_), end_(begin_ + text.size()), stop_(stop) {
+  Input(std::string_view text, core::Work& work)
+      : begin_(text.data()), at_(begin_), pause_(begin_), end_(begin_ + text.size()), work_(work) {
     pause();
   }
 
@@ -133,7 +133,7 @@ class Input {
  private:
   void pause() {
     const std::size_t step = std::min(core::Work::kStride, static_cast<std::size_t>(end_ - at_));
-    if (stop_.met_after(step)) {
+    if (work_.met_after(step)) {
       end_ = at_;
     } else {
       pause_ = at_ + step;
@@ -144,7 +144,7 @@ class Input {
   const char* at_;
   const char* pause_;
   const char* end_;
-  core::Work& stop_;
+  core::Work& work_;
 };
 
 /// Puts on the tape what the parser meets.
@@ -282,11 +282,11 @@ struct Tamed {
 
 /// Replaces numbers that are too large. The parser stops at such a number; to report it together with all
 /// other faults, a body that has one is read a second time without them.
-Tamed tame_overflowing(std::string_view body, core::Work& stop) {
+Tamed tame_overflowing(std::string_view body, core::Work& work) {
   Tamed tamed{std::string(body), {}};
   std::string& text = tamed.body;
   std::size_t numbers = 0;
-  for (std::size_t at = 0; at < text.size() && !stop.met_after(1); ++at) {
+  for (std::size_t at = 0; at < text.size() && !work.met_after(1); ++at) {
     if (text[at] == '"') {
       for (++at; at < text.size() && text[at] != '"'; ++at) at += text[at] == '\\' ? 1 : 0;
     } else if (text[at] == '-' || (text[at] >= '0' && text[at] <= '9')) {

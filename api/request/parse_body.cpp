@@ -172,7 +172,7 @@ std::vector<std::string> unit_warnings(const std::vector<ParsedRobot>& robots, c
     return [what, &id] { return std::string(what) + in_quotes(id); };
   };
   for (const ParsedRobot& read : robots) {
-    if (read.start && read.start.stop().met_after(1)) break;
+    if (read.start && read.start.work().met_after(1)) break;
     const std::string& id = read.robot.id;
     headings.look_at(read.start.find("theta"), of("heading at the start of robot ", id));
     for (const JsonReader& goal : read.goals) {
@@ -183,7 +183,7 @@ std::vector<std::string> unit_warnings(const std::vector<ParsedRobot>& robots, c
   }
   if (zones && zones.value().is_array()) {
     for (const JsonReader zone : zones.items()) {
-      if (zone.stop().met_after(1)) break;
+      if (zone.work().met_after(1)) break;
       const std::string id(zone.find("id").string().value_or(""));
       headings.look_at(zone.find("heading"), of("heading of zone ", id));
     }
@@ -256,8 +256,8 @@ RequestError request_error(const FaultList& faults) {
   return error;
 }
 
-RequestError request_error(const JsonError& error, const core::Work& stop) {
-  if (error.kind == JsonError::Kind::unfinished) return unfinished(stop);
+RequestError request_error(const JsonError& error, const core::Work& work) {
+  if (error.kind == JsonError::Kind::unfinished) return unfinished(work);
   RequestError request{code_of(error.kind), error.detail, {}, 0};
   if (request.code == ErrorCode::invalid_request) {
     request.faults.push_back({"", fault::kOutOfRange, error.detail});
@@ -266,16 +266,16 @@ RequestError request_error(const JsonError& error, const core::Work& stop) {
   return request;
 }
 
-RequestError unfinished(const core::Work& stop) {
-  if (stop.cancelled()) {
+RequestError unfinished(const core::Work& work) {
+  if (work.cancelled()) {
     return {ErrorCode::draining, kDrainingDetail, {}, 0};
   }
   return {ErrorCode::parse_unfinished,
           "Reading the request was given up after " +
-              std::string(stop.has_budget() ? "its time budget, or three seconds of CPU time"
+              std::string(work.has_budget() ? "its time budget, or three seconds of CPU time"
                                             : "a second of CPU time") +
               ": send a smaller map, or fewer robots, actions or other values" +
-              (stop.has_budget() ? ", or increase options.time_budget_ms." : "."),
+              (work.has_budget() ? ", or increase options.time_budget_ms." : "."),
           {},
           0};
 }

@@ -51,24 +51,24 @@ Fleet parse_fleet(const JsonReader& root, const Limits& limits,
 void check_lattice(const JsonReader& options, const core::PlanOptions& plan, const core::OccupancyGrid& grid,
                    const Limits& limits);
 
-RequestError request_error(const JsonError& error, const core::Work& stop);
+RequestError request_error(const JsonError& error, const core::Work& work);
 /// Returns the error with the listed faults, of which there must be one, and the number of all.
 RequestError request_error(const FaultList& faults);
 
 /// Returns the error of a request whose reading was stopped.
-RequestError unfinished(const core::Work& stop);
+RequestError unfinished(const core::Work& work);
 
-/// Reads a body whose root has these members. `parse` gets a reader of the root and the stop, which it may
+/// Reads a body whose root has these members. `parse` gets a reader of the root and the work, which it may
 /// give the budget, and returns an optional request, which is empty only when it reported faults or when the
-/// stop was met. Returns the request if the document has no fault at all.
+/// work was met. Returns the request if the document has no fault at all.
 template <typename Request, typename Parse>
-Result<Request, RequestError> parse_body(std::string_view body, const Limits& limits, core::Work& stop,
+Result<Request, RequestError> parse_body(std::string_view body, const Limits& limits, core::Work& work,
                                          std::span<const std::string_view> members, const Parse& parse) {
-  auto document = read_json(body, limits.max_depth, stop);
-  if (!document) return request_error(document.failure(), stop);
-  std::optional<Request> request = parse(JsonReader(*document).object(members), stop);
+  auto document = read_json(body, limits.max_depth, work);
+  if (!document) return request_error(document.failure(), work);
+  std::optional<Request> request = parse(JsonReader(*document).object(members), work);
   const bool ended = !request && document->faults.empty();
-  if (ended || stop.met()) return unfinished(stop);
+  if (ended || work.met()) return unfinished(work);
   if (!document->faults.empty()) return request_error(document->faults);
   return std::move(*request);
 }

@@ -41,12 +41,12 @@ bool is_of_a_pair(const core::ProblemFault& found) {
 /// Makes the problem, if need be again and again with more robots that are invalid.
 class ProblemMaker {
  public:
-  ProblemMaker(Fleet& fleet, const JsonReader& root, core::Work& stop, core::MapCache* maps)
+  ProblemMaker(Fleet& fleet, const JsonReader& root, core::Work& work, core::MapCache* maps)
       : fleet_(fleet),
         root_(root),
-        stop_(stop),
-        map_(maps != nullptr ? maps->map_of(std::move(fleet.map->grid), stop.reading())
-                             : core::static_map(std::move(fleet.map->grid), stop.reading())),
+        work_(work),
+        map_(maps != nullptr ? maps->map_of(std::move(fleet.map->grid), work.reading())
+                             : core::static_map(std::move(fleet.map->grid), work.reading())),
         reports_(reports()) {
     // A part that could not be read may be what would make committed motion valid.
     const bool poses_only = root.fault_count() > 0;
@@ -61,21 +61,21 @@ class ProblemMaker {
   }
 
   std::optional<MadeProblem> run() {
-    if (!map_) stop_.look();
+    if (!map_) work_.look();
     while (map_) {
       core::ProblemConditions made_of = conditions();
-      if (stop_.met()) break;
-      if (any_open_ && !choose_poses()) {
-        if (reports_ && !stop_.met()) continue;
+      if (work_.met()) break;
+      if (any_open_ && !choose_poses_without_search()) {
+        if (reports_ && !work_.met()) continue;
         break;
       }
       auto made = core::Problem::create(map_, reports_ || any_open_ ? robots_ : std::move(robots_),
-                                        std::move(made_of), stop_.reading());
+                                        std::move(made_of), work_.reading());
       if (auto* problem = std::get_if<core::Problem>(&made)) {
         return MadeProblem{std::move(*problem), open_fleet(), std::move(errors_)};
       }
       const auto& faults = std::get<core::ProblemFaults>(made);
-      if (!faults.finished) stop_.look();
+      if (!faults.finished) work_.look();
       if (reports_ && faults.finished && mark_invalid(faults)) continue;
       report(faults);
       root_.count_more_faults(faults.total - faults.listed.size());
@@ -86,7 +86,7 @@ class ProblemMaker {
 
  private:
   void report(const core::ProblemFaults& faults) {
-    std::string cause = common_cause(faults, fleet_, indices_, *map_, stop_.reading());
+    std::string cause = common_cause(faults, fleet_, indices_, *map_, work_.reading());
     for (const auto& found : faults.listed) {
       if (is_told_at_start(found, faults)) continue;
       const GeometryFault fault = describe(found, fleet_, indices_, map_->grid());
@@ -109,8 +109,8 @@ class ProblemMaker {
   }
 
   /// Chooses the poses of open goals, as far as that takes no search. Returns whether all of them have one.
-  bool choose_poses() {
-    const core::StopCondition stop = stop_.reading();
+  bool choose_poses_without_search() {
+    const core::StopCondition stop = work_.reading();
     for (std::size_t k = 0; k < robots_.size(); ++k) {
       if (robots_[k].invalid) open_[k].clear();
       const auto& previous = robots_[k].previous;
@@ -125,7 +125,7 @@ class ProblemMaker {
           "None of these poses fits: at each of them, the disk of the robot overlaps a blocked cell, a "
           "blocked zone or the edge of the map. Move one of them, or make the robot smaller.");
     }
-    if (!all || stop_.met()) return false;
+    if (!all || work_.met()) return false;
     for (const auto& [robot, open] : core::choose_by_distance(robots_, open_, stop)) {
       all = false;
       report_open(
@@ -133,7 +133,7 @@ class ProblemMaker {
           "The robot would stay at one of these poses, but other robots stay at all of them that fit: "
           "give more poses, or let robots go on with \"idle\": \"yield\".");
     }
-    return all && !stop_.met();
+    return all && !work_.met();
   }
 
   void report_open(std::size_t robot, std::size_t open, const char* code, const std::string& detail) {
@@ -173,7 +173,7 @@ class ProblemMaker {
   std::vector<core::Zone> zones() const {
     std::vector<core::Zone> zones = fleet_.zones;
     for (core::Zone& zone : zones) {
-      if (stop_.met_after(kWorkOfAZoneRobot * zone.robots.size())) break;
+      if (work_.met_after(kWorkOfAZoneRobot * zone.robots.size())) break;
       if (zone.robots.empty()) continue;
       std::vector<std::size_t> placed;
       for (const std::size_t robot : zone.robots) {
@@ -194,7 +194,7 @@ class ProblemMaker {
     for (const core::ProblemFault& found : faults.listed) {
       if (is_told_at_start(found, faults)) continue;
       const GeometryFault fault = describe(found, fleet_, indices_, map_->grid());
-      if (stop_.look()) return false;
+      if (work_.look()) return false;
       const Fault error = fault.place.described_fault(fault.code, fault.detail);
       any = make_invalid(found.robot, error) || any;
       if (is_of_a_pair(found)) any = make_invalid(found.other, error) || any;
@@ -216,7 +216,7 @@ class ProblemMaker {
 
   Fleet& fleet_;
   const JsonReader& root_;
-  core::Work& stop_;
+  core::Work& work_;
   std::shared_ptr<const core::StaticMap> map_;
   bool reports_;
   std::vector<core::Robot> robots_;  // the robots that are placed
@@ -229,12 +229,12 @@ class ProblemMaker {
 /// Makes the problem of a fleet with a map, and of its robots whose radius and start could be read; the
 /// faults of other robots hide none of these. Takes the map, the actions, the goals and the obstacles out of
 /// the fleet. Poses in obstacles, overlapping starts or last goals and committed motion that collides are
-/// faults; then there is no problem, nor if the stop is met. If invalid robots are to be reported, there is a
+/// faults; then there is no problem, nor if `work` is met. If invalid robots are to be reported, there is a
 /// problem, in which they are invalid and stand at their starts. `maps`, which may be null, has those of
 /// earlier requests.
-std::optional<MadeProblem> make_problem(Fleet& fleet, const JsonReader& root, core::Work& stop,
+std::optional<MadeProblem> make_problem(Fleet& fleet, const JsonReader& root, core::Work& work,
                                         core::MapCache* maps) {
-  return ProblemMaker(fleet, root, stop, maps).run();
+  return ProblemMaker(fleet, root, work, maps).run();
 }
 
 /// Returns the choices of a robot, see ReceivedRobot.
@@ -266,12 +266,12 @@ std::vector<ReceivedRobot> received(std::vector<ParsedRobot>& robots,
 }  // namespace
 
 std::optional<PlanRequest> parse_plan_request(const JsonReader& request, const Limits& limits,
-                                              core::Work& stop, core::MapCache* maps) {
+                                              core::Work& work, core::MapCache* maps) {
   Fleet fleet = parse_fleet(request, limits, [&](const ParsedOptions& options) {
-    stop.set_budget(effective_budget(options, limits));
+    work.set_budget(effective_budget(options, limits));
   });
-  if (!fleet.map || stop.met()) return std::nullopt;
-  auto made = make_problem(fleet, request, stop, maps);
+  if (!fleet.map || work.met()) return std::nullopt;
+  auto made = make_problem(fleet, request, work, maps);
   if (!made) return std::nullopt;
   std::vector<std::string> warnings = std::move(fleet.options.warnings);
   if (auto warning = budget_warning(fleet.options, limits)) warnings.push_back(std::move(*warning));
@@ -297,12 +297,12 @@ void tell_choices(PlanRequest& request) {
   }
 }
 
-Result<PlanRequest, RequestError> parse_request(std::string_view body, const Limits& limits, core::Work& stop,
+Result<PlanRequest, RequestError> parse_request(std::string_view body, const Limits& limits, core::Work& work,
                                                 core::MapCache* maps) {
   const auto parse = [&](const JsonReader& root, core::Work& reading) {
     return parse_plan_request(root, limits, reading, maps);
   };
-  return parse_body<PlanRequest>(body, limits, stop, kPlanRequestMembers, parse);
+  return parse_body<PlanRequest>(body, limits, work, kPlanRequestMembers, parse);
 }
 
 namespace {
@@ -343,7 +343,7 @@ core::CheckRules rules_of(const core::PlanOptions& options,
 }  // namespace
 
 Result<ValidateRequest, RequestError> parse_validate_request(std::string_view body, const Limits& limits,
-                                                             core::Work& stop) {
+                                                             core::Work& work) {
   const auto parse = [&](const JsonReader& root, core::Work& reading) -> std::optional<ValidateRequest> {
     Fleet fleet = parse_fleet(root, limits, [&](const ParsedOptions& options) {
       reading.set_budget(check_budget(options, limits));
@@ -371,7 +371,7 @@ Result<ValidateRequest, RequestError> parse_validate_request(std::string_view bo
                            .rules = std::move(rules),
                            .budget = check_budget(fleet.options, limits)};
   };
-  return parse_body<ValidateRequest>(body, limits, stop, kValidateRequestMembers, parse);
+  return parse_body<ValidateRequest>(body, limits, work, kValidateRequestMembers, parse);
 }
 
 }  // namespace fleetplan::api

@@ -63,13 +63,13 @@ inline bool is_of_an_answer(std::string_view member) {
 }
 
 /// Reads a request of POST /v1/plan, which may be a part of a body. Returns none only when it reported
-/// faults, or when the stop is met.
+/// faults, or when `work` is met.
 std::optional<PlanRequest> parse_plan_request(const JsonReader& request, const Limits& limits,
-                                              core::Work& stop, core::MapCache* maps);
+                                              core::Work& work, core::MapCache* maps);
 
-/// Reads a body of POST /v1/plan; ends with `parse_unfinished` or `draining` when the stop is met. `maps`,
+/// Reads a body of POST /v1/plan; ends with `parse_unfinished` or `draining` when `work` is met. `maps`,
 /// which may be null, has those of earlier requests.
-Result<PlanRequest, RequestError> parse_request(std::string_view body, const Limits& limits, core::Work& stop,
+Result<PlanRequest, RequestError> parse_request(std::string_view body, const Limits& limits, core::Work& work,
                                                 core::MapCache* maps = nullptr);
 
 /// A readable body of POST /v1/validate. Robots may overlap obstacles and each other, which the checker
@@ -85,9 +85,9 @@ struct ValidateRequest {
   std::chrono::nanoseconds budget{};  // time for the check
 };
 
-/// Reads a body of POST /v1/validate; ends with `parse_unfinished` or `draining` when the stop is met.
+/// Reads a body of POST /v1/validate; ends with `parse_unfinished` or `draining` when `work` is met.
 Result<ValidateRequest, RequestError> parse_validate_request(std::string_view body, const Limits& limits,
-                                                             core::Work& stop);
+                                                             core::Work& work);
 
 /// The most runs of one study.
 inline constexpr std::size_t kMostRuns = 100'000;
@@ -110,8 +110,8 @@ struct SimulateRequest {
   std::vector<std::string> warnings = {};
 };
 
-/// Reads a body of POST /v1/simulate; ends with `parse_unfinished` or `draining` when the stop is met.
+/// Reads a body of POST /v1/simulate; ends with `parse_unfinished` or `draining` when `work` is met.
 Result<SimulateRequest, RequestError> parse_simulate_request(std::string_view body, const Limits& limits,
-                                                             core::Work& stop);
+                                                             core::Work& work);
 
 }  // namespace fleetplan::api

@@ -183,7 +183,7 @@ void take_fleet(Fleet& fleet, const Limits& limits, SimulateRequest& request) {
 }  // namespace
 
 Result<SimulateRequest, RequestError> parse_simulate_request(std::string_view body, const Limits& limits,
-                                                             core::Work& stop) {
+                                                             core::Work& work) {
   const auto parse = [&](const JsonReader& root, core::Work& reading) -> std::optional<SimulateRequest> {
     Fleet fleet = parse_fleet(root, limits, [&](const ParsedOptions& options) {
       reading.set_budget(effective_budget(options, limits));
@@ -209,7 +209,7 @@ Result<SimulateRequest, RequestError> parse_simulate_request(std::string_view bo
     parse_all_dependencies(root, request);
     return reading.met() ? std::nullopt : std::optional(std::move(request));
   };
-  return parse_body<SimulateRequest>(body, limits, stop, kSimulateRequestMembers, parse);
+  return parse_body<SimulateRequest>(body, limits, work, kSimulateRequestMembers, parse);
 }
 
 }  // namespace fleetplan::api

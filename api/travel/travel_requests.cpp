@@ -107,9 +107,9 @@ core::TravelQuestions questions_of(const Poses& from, const Poses& to) {
 }  // namespace
 
 std::optional<MatrixRequest> parse_matrix_request(const JsonReader& root, const Limits& limits,
-                                                  core::Work& stop, core::MapCache* maps) {
+                                                  core::Work& work, core::MapCache* maps) {
   ParsedOptions options = parse_options(root.find("options"));
-  stop.set_budget(effective_budget(options, limits));
+  work.set_budget(effective_budget(options, limits));
   auto map = parse_map(root.require("map"), limits.max_cells);
   if (map) check_lattice(root.find("options"), options.plan, map->grid, limits);
   std::vector<ParsedRobot> robot(1);
@@ -122,19 +122,19 @@ std::optional<MatrixRequest> parse_matrix_request(const JsonReader& root, const 
   if (!check_pose_pairs(from_member, to_member)) return std::nullopt;
   const Poses from = parse_poses(from_member, "from", frame);
   const Poses to = parse_poses(to_member, "to", frame);
-  if (!map || root.fault_count() > 0 || stop.met()) return std::nullopt;
-  const auto static_map = maps != nullptr ? maps->map_of(std::move(map->grid), stop.reading())
-                                          : core::static_map(std::move(map->grid), stop.reading());
-  if (!static_map) return stop.look(), std::nullopt;
+  if (!map || root.fault_count() > 0 || work.met()) return std::nullopt;
+  const auto static_map = maps != nullptr ? maps->map_of(std::move(map->grid), work.reading())
+                                          : core::static_map(std::move(map->grid), work.reading());
+  if (!static_map) return work.look(), std::nullopt;
   core::ProblemConditions conditions;
   conditions.wall_overlap = std::max(0.0, options.plan.start_overlap - options.plan.inflation);
   conditions.inflation = options.plan.inflation;
   conditions.zones = zones;
   conditions.one_at_a_time = true;
   auto made = core::Problem::create(static_map, robots_at(from, to, robot.front().robot, zones),
-                                    std::move(conditions), stop.reading());
+                                    std::move(conditions), work.reading());
   if (const auto* faults = std::get_if<core::ProblemFaults>(&made)) {
-    if (!faults->finished) stop.look();
+    if (!faults->finished) work.look();
     report(*faults, from, to, robot.front().robot, zones, static_map->grid(), frame);
     root.count_more_faults(faults->total - faults->listed.size());
     return std::nullopt;
@@ -263,12 +263,12 @@ bool check_task_pairs(const JsonReader& tasks, std::size_t robots) {
 }  // namespace
 
 std::optional<AssignRequest> parse_assign_request(const JsonReader& root, const Limits& limits,
-                                                  core::Work& stop, core::MapCache* maps) {
+                                                  core::Work& work, core::MapCache* maps) {
   const JsonReader member =
       root.require("request", "; give a request of /v1/plan").object(kPlanRequestMembers);
   const JsonReader tasks = root.require("tasks", "; give a list of tasks").array();
   if (!member) return std::nullopt;
-  auto plan = parse_plan_request(member, limits, stop, maps);
+  auto plan = parse_plan_request(member, limits, work, maps);
   // With faults, robots may be missing that tasks name.
   if (!plan || root.fault_count() > 0) return std::nullopt;
   AssignRequest request{
@@ -276,7 +276,7 @@ std::optional<AssignRequest> parse_assign_request(const JsonReader& root, const 
   if (!tasks || !check_task_pairs(tasks, request.plan.problem.robots().size())) return std::nullopt;
   TaskReader reader(request, limits);
   for (const JsonReader item : tasks.items()) reader.read(item, request);
-  if (root.fault_count() > 0 || stop.met()) return std::nullopt;
+  if (root.fault_count() > 0 || work.met()) return std::nullopt;
   return request;
 }
 

@@ -36,10 +36,10 @@ struct MatrixRequest {
   std::size_t columns() const { return questions.columns.size(); }
 };
 
-/// Reads the root of the document. Returns none if it has faults, or if its stop is met. `maps`, which may be
+/// Reads the root of the document. Returns none if it has faults, or if `work` is met. `maps`, which may be
 /// null, has the maps of earlier requests.
 std::optional<MatrixRequest> parse_matrix_request(const JsonReader& root, const Limits& limits,
-                                                  core::Work& stop, core::MapCache* maps);
+                                                  core::Work& work, core::MapCache* maps);
 
 /// Returns the answer; none if `stop` is met first.
 std::optional<std::string> write_matrix(const MatrixRequest& request, const core::TravelAnswers& answers,
@@ -58,10 +58,10 @@ struct AssignRequest {
   JsonReader request;             // the member of the body
 };
 
-/// Reads the root of the document. Returns none if it has faults, or if its stop is met. `maps`, which may be
+/// Reads the root of the document. Returns none if it has faults, or if `work` is met. `maps`, which may be
 /// null, has the maps of earlier requests.
 std::optional<AssignRequest> parse_assign_request(const JsonReader& root, const Limits& limits,
-                                                  core::Work& stop, core::MapCache* maps);
+                                                  core::Work& work, core::MapCache* maps);
 
 /// The robot of each task and its arrival; none for a task that no robot has.
 struct Assigned {

@@ -158,11 +158,11 @@ std::vector<std::optional<VehicleState>> parse_states(const JsonReader& member, 
 }
 
 std::optional<VdaImport> parse_vda5050_import(const JsonReader& root, const Limits& limits,
-                                              core::Work& stop) {
-  auto request = parse_vda5050_request(root, limits, stop);
+                                              core::Work& work) {
+  auto request = parse_vda5050_request(root, limits, work);
   if (!request) return std::nullopt;
   auto states = parse_states(root.require("messages"), *request);
-  if (root.fault_count() > 0 || stop.met()) return std::nullopt;
+  if (root.fault_count() > 0 || work.met()) return std::nullopt;
   return VdaImport{std::move(*request), std::move(states)};
 }
 
@@ -185,14 +185,14 @@ core::Position position_at(core::Actions actions, const core::ActionPlace& place
 /// kBesidePath.
 std::optional<core::ActionPlace> nearest_place(core::Actions actions, const core::ActionPlace& from,
                                                const core::ActionPlace& to, const core::Position& position,
-                                               core::Work& stop) {
+                                               core::Work& work) {
   constexpr std::size_t kWorkOfALook = 64;
   std::optional<core::ActionPlace> nearest;
   double least = (position_at(actions, from) - position).norm();
   if (least <= kBesidePath) nearest = from;
   least = std::min(least, kBesidePath);
   for (std::size_t k = from.action; k < actions.size() && k <= to.action; ++k) {
-    if (stop.met_after(kWorkOfALook)) break;
+    if (work.met_after(kWorkOfALook)) break;
     const core::Position path = actions[k].to.position - actions[k].from.position;
     const double squared = path.squaredNorm();
     const double first = k == from.action ? from.fraction : 0.0;
@@ -214,11 +214,11 @@ std::optional<core::ActionPlace> nearest_place(core::Actions actions, const core
 /// How far a vehicle is with its order.
 class Tracker {
  public:
-  Tracker(const VdaRequest& request, std::size_t robot, const VehicleState* state, core::Work& stop)
+  Tracker(const VdaRequest& request, std::size_t robot, const VehicleState* state, core::Work& work)
       : request_(request),
         robot_(robot),
         state_(state),
-        stop_(stop),
+        work_(work),
         progress_(request.progress[robot]),
         route_(request.routes[robot]),
         actions_(request.actions[robot]) {}
@@ -256,7 +256,7 @@ class Tracker {
     }
     const bool is_busy = node && !has_ended(*node);
     if (!state_->pose || is_busy || !(place < most)) return place;
-    return nearest_place(actions_, place, most, state_->pose->position, stop_).value_or(place);
+    return nearest_place(actions_, place, most, state_->pose->position, work_).value_or(place);
   }
 
   /// The place that the vehicle may go to, its actions there included; not before `place`.
@@ -313,7 +313,7 @@ class Tracker {
   const VdaRequest& request_;
   std::size_t robot_;
   const VehicleState* state_;  // null: it has not reported
-  core::Work& stop_;
+  core::Work& work_;
   const OrderProgress& progress_;
   const Route& route_;
   core::Actions actions_;
@@ -322,11 +322,11 @@ class Tracker {
 /// Writes the answer list by list.
 class StatesWriter {
  public:
-  StatesWriter(const VdaImport& import, core::Work& stop) : import_(import), stop_(stop) {
+  StatesWriter(const VdaImport& import, core::Work& work) : import_(import), work_(work) {
     for (std::size_t k = 0; k < import.states.size(); ++k) {
-      if (stop.met_after(kWorkOfARobot)) break;
+      if (work.met_after(kWorkOfARobot)) break;
       const auto& state = import.states[k];
-      trackers_.emplace_back(import.request, k, state ? &*state : nullptr, stop);
+      trackers_.emplace_back(import.request, k, state ? &*state : nullptr, work);
       places_.push_back(trackers_.back().place());
     }
   }
@@ -348,7 +348,7 @@ class StatesWriter {
   template <typename Write>
   void write_list(std::string_view name, const Write& write) {
     json_.key(name).begin_array();
-    for (std::size_t k = 0; k < places_.size() && !stop_.met_after(kWorkOfARobot); ++k) write(k);
+    for (std::size_t k = 0; k < places_.size() && !work_.met_after(kWorkOfARobot); ++k) write(k);
     json_.end_array();
   }
 
@@ -417,7 +417,7 @@ class StatesWriter {
   }
 
   const VdaImport& import_;
-  core::Work& stop_;
+  core::Work& work_;
   std::vector<Tracker> trackers_;          // by robot
   std::vector<core::ActionPlace> places_;  // by robot
   JsonWriter json_;
@@ -425,9 +425,9 @@ class StatesWriter {
 
 }  // namespace
 
-std::optional<std::string> write_states(const VdaImport& import, core::Work& stop) {
-  std::string text = StatesWriter(import, stop).write();
-  return stop.met() ? std::nullopt : std::optional(std::move(text));
+std::optional<std::string> write_states(const VdaImport& import, core::Work& work) {
+  std::string text = StatesWriter(import, work).write();
+  return work.met() ? std::nullopt : std::optional(std::move(text));
 }
 
 }  // namespace fleetplan::api

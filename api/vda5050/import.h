@@ -46,11 +46,11 @@ inline constexpr auto kVdaImportMembers = [] {
   return members;
 }();
 
-/// Reads the root of the document. Returns none if it has faults, or if its stop is met.
-std::optional<VdaImport> parse_vda5050_import(const JsonReader& root, const Limits& limits, core::Work& stop);
+/// Reads the root of the document. Returns none if it has faults, or if `work` is met.
+std::optional<VdaImport> parse_vda5050_import(const JsonReader& root, const Limits& limits, core::Work& work);
 
 /// Returns the answer: `states` and `poses` for POST /v1/advance, `progress` for the next export, and what
-/// became of the orders. Returns none if the stop is met.
-std::optional<std::string> write_states(const VdaImport& import, core::Work& stop);
+/// became of the orders. Returns none if `work` is met.
+std::optional<std::string> write_states(const VdaImport& import, core::Work& work);
 
 }  // namespace fleetplan::api

@@ -108,14 +108,14 @@ std::optional<double> passes(const core::Action& action, const core::Position& p
 }
 
 /// Whether a robot that executes these actions comes past all positions in their order.
-bool passes_all(core::Actions actions, const std::vector<core::Position>& positions, core::Work& stop) {
+bool passes_all(core::Actions actions, const std::vector<core::Position>& positions, core::Work& work) {
   constexpr std::size_t kWorkOfAStep = 64;
   std::size_t action = 0;
   double fraction = 0.0;
   for (const core::Position& position : positions) {
     auto passed = action < actions.size() ? passes(actions[action], position, fraction) : std::nullopt;
     while (!passed) {
-      if (stop.met_after(kWorkOfAStep) || ++action >= actions.size()) return false;
+      if (work.met_after(kWorkOfAStep) || ++action >= actions.size()) return false;
       passed = passes(actions[action], position, 0.0);
     }
     fraction = *passed;
@@ -137,7 +137,7 @@ core::ActionPlace last_stand(core::Actions actions) {
 }
 
 std::optional<std::string> why_it_ends(const OrderBase& base, const core::Robot& robot, core::Actions actions,
-                                       const core::ActionPlace& closed, core::Work& stop) {
+                                       const core::ActionPlace& closed, core::Work& work) {
   const JsonReader position = base.last.find("nodePosition");
   const core::Position last(position.find("x").number(kCoordinate).value_or(0.0),
                             position.find("y").number(kCoordinate).value_or(0.0));
@@ -154,7 +154,7 @@ std::optional<std::string> why_it_ends(const OrderBase& base, const core::Robot&
   const core::Actions committed = actions.first(count);
   std::vector<core::Position> nodes = base.still_to_do;
   if (!nodes.empty()) nodes.pop_back();  // where the motion ends
-  if (!passes_all(committed, nodes, stop)) {
+  if (!passes_all(committed, nodes, work)) {
     return "The robot is not committed to pass the released nodes of order " + in_quotes(base.order_id) + ".";
   }
   if (closed < last_stand(committed)) {
@@ -343,8 +343,8 @@ bool is_long_enough(const JsonReader& member, const VdaRequest& request) {
   return false;
 }
 
-/// Returns the routes of all robots. Ends early when the stop is met.
-std::vector<Route> routes_of(const VdaRequest& request, double wait_before_move, core::Work& stop) {
+/// Returns the routes of all robots. Ends early when `work` is met.
+std::vector<Route> routes_of(const VdaRequest& request, double wait_before_move, core::Work& work) {
   // A node is as much work as reading so many bytes.
   constexpr std::size_t kWorkOfANode = 256;
   auto points = points_of(request.gates, request.robots.size());
@@ -354,9 +354,9 @@ std::vector<Route> routes_of(const VdaRequest& request, double wait_before_move,
     const core::Actions actions = request.actions[k];
     if (request.release_ahead) {
       points[k] =
-          with_points_within(*request.release_ahead / kNodesAhead, std::move(points[k]), actions, stop);
+          with_points_within(*request.release_ahead / kNodesAhead, std::move(points[k]), actions, work);
     }
-    if (stop.met_after(kWorkOfANode * (1 + actions.size() + points[k].size()))) break;
+    if (work.met_after(kWorkOfANode * (1 + actions.size() + points[k].size()))) break;
     routes.push_back(route_of(request.robots[k], actions, points[k], wait_before_move, start_of(request, k)));
   }
   return routes;
@@ -365,7 +365,7 @@ std::vector<Route> routes_of(const VdaRequest& request, double wait_before_move,
 }  // namespace
 
 std::optional<VdaRequest> parse_vda5050_request(const JsonReader& root, const Limits& limits,
-                                                core::Work& stop) {
+                                                core::Work& work) {
   VdaRequest request;
   request.header = read_header(root);
   const double wait_before_move = parse_options(root.find("options")).plan.wait_before_move;
@@ -374,7 +374,7 @@ std::optional<VdaRequest> parse_vda5050_request(const JsonReader& root, const Li
   std::vector<ParsedRobot> robots =
       parse_robots(root.require("robots"), root.find("robot_defaults"), WorldFrame{}, limits, ids);
   request.plans = parse_plans(root.require("plans"), robots, WorldFrame{});
-  if (root.fault_count() > 0 || stop.met()) return std::nullopt;
+  if (root.fault_count() > 0 || work.met()) return std::nullopt;
   for (ParsedRobot& robot : robots) {
     request.goals.push_back(std::move(robot.goals));
     request.robots.push_back(std::move(robot.robot));
@@ -389,10 +389,10 @@ std::optional<VdaRequest> parse_vda5050_request(const JsonReader& root, const Li
   request.actions = core::executed_actions(request.robots, request.plans);
   request.gates = gates_of(dependencies, request.actions);
   if (!is_long_enough(root.find("release_ahead"), request)) return std::nullopt;
-  request.routes = routes_of(request, wait_before_move, stop);
-  if (stop.met()) return std::nullopt;
+  request.routes = routes_of(request, wait_before_move, work);
+  if (work.met()) return std::nullopt;
   request.progress = ProgressReader(request).read(root.find("progress"));
-  if (root.fault_count() > 0 || stop.met()) return std::nullopt;
+  if (root.fault_count() > 0 || work.met()) return std::nullopt;
   return request;
 }
 

@@ -45,7 +45,7 @@ core::ActionPlace last_stand(core::Actions actions);
 /// committed to go past all that is still to do, and its committed motion ends there; and if it does not have
 /// to wait for anybody on the way. `closed`: the first gate of the plan that is closed for the robot.
 std::optional<std::string> why_it_ends(const OrderBase& base, const core::Robot& robot, core::Actions actions,
-                                       const core::ActionPlace& closed, core::Work& stop);
+                                       const core::ActionPlace& closed, core::Work& work);
 
 /// Ids of updates and sequences are unsigned numbers of 32 bits, and there is one after each.
 inline constexpr std::uint64_t kGreatestId = 4'294'967'294;
@@ -107,8 +107,8 @@ inline constexpr std::array<std::string_view, 17> kVdaMembers{
     "plans",        "options",       "base",     "dependencies", "release_ahead", "progress",
     "manufacturer", "manufacturers", "metadata", "timestamp",    "serial_numbers"};
 
-/// Reads the root of the document. Returns none if it has faults, or if its stop is met.
+/// Reads the root of the document. Returns none if it has faults, or if `work` is met.
 std::optional<VdaRequest> parse_vda5050_request(const JsonReader& root, const Limits& limits,
-                                                core::Work& stop);
+                                                core::Work& work);
 
 }  // namespace fleetplan::api

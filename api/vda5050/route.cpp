@@ -159,13 +159,13 @@ Route route_of(const core::Robot& robot, core::Actions actions, const std::vecto
 }
 
 std::vector<core::ActionPlace> with_points_within(double seconds, std::vector<core::ActionPlace> points,
-                                                  core::Actions actions, core::Work& stop) {
+                                                  core::Actions actions, core::Work& work) {
   constexpr std::size_t kWorkOfAPoint = 256;  // of the node that it becomes
   for (std::size_t k = 0; k < actions.size(); ++k) {
     if (!moves(actions[k])) continue;
     const double pieces = std::ceil((actions[k].t_end - actions[k].t_start) / seconds);
     for (double piece = 1.0; piece < pieces; piece += 1.0) {
-      if (stop.met_after(kWorkOfAPoint)) return points;
+      if (work.met_after(kWorkOfAPoint)) return points;
       points.push_back({k, core::share_covered(actions[k], piece / pieces)});
     }
   }

@@ -65,11 +65,9 @@ Route route_of(const core::Robot& robot, core::Actions actions, const std::vecto
                double wait_before_move, const RouteStart& start = {});
 
 /// Adds points to those of a robot, so that no translation takes longer than so many seconds from one to the
-/// next. Ends early when the stop is met.
+/// next. Ends early when `work` is met.
 std::vector<core::ActionPlace> with_points_within(double seconds, std::vector<core::ActionPlace> points,
-                                                  core::Actions actions, core::Work& stop);
-
-// Dependencies become releases of nodes.
+                                                  core::Actions actions, core::Work& work);
 
 /// A robot may not pass a place before another one has reached its own.
 struct Gate {

@@ -210,17 +210,17 @@ constexpr std::size_t kWorkOfANode = 1024;
 /// them.
 class Cancellations {
  public:
-  Cancellations(const VdaRequest& request, const std::vector<core::ActionPlace>& closed, core::Work& stop)
-      : request_(request), closed_(closed), stop_(stop) {}
+  Cancellations(const VdaRequest& request, const std::vector<core::ActionPlace>& closed, core::Work& work)
+      : request_(request), closed_(closed), work_(work) {}
 
   /// Returns whether there are any.
   bool write(JsonWriter& json) {
     bool any = false;
     json.key("cancel_orders").begin_array();
-    for (std::size_t k = 0; k < request_.robots.size() && !stop_.met_after(kWorkOfANode); ++k) {
+    for (std::size_t k = 0; k < request_.robots.size() && !work_.met_after(kWorkOfANode); ++k) {
       if (!request_.bases[k] || !request_.progress[k].order_id) continue;
       const auto why =
-          why_it_ends(*request_.bases[k], request_.robots[k], request_.actions[k], closed_[k], stop_);
+          why_it_ends(*request_.bases[k], request_.robots[k], request_.actions[k], closed_[k], work_);
       if (!why) continue;
       any = true;
       json.begin_object().member("robot", request_.robots[k].id).member("detail", *why);
@@ -246,7 +246,7 @@ class Cancellations {
 
   const VdaRequest& request_;
   const std::vector<core::ActionPlace>& closed_;
-  core::Work& stop_;
+  core::Work& work_;
 };
 
 /// By robot, how many nodes of its route are released.
@@ -275,21 +275,21 @@ void write_place(JsonWriter& json, const core::ActionPlace& place) {
   json.member("progress", is_end ? 1.0 : place.fraction);
 }
 
-std::optional<std::string> write_orders(const VdaRequest& request, core::Work& stop) {
+std::optional<std::string> write_orders(const VdaRequest& request, core::Work& work) {
   std::vector<core::ActionPlace> reached;
   reached.reserve(request.progress.size());
   for (const OrderProgress& progress : request.progress) reached.push_back(progress.at);
   const auto closed = closed_gates(request.gates, reached);
   JsonWriter json;
   json.begin_object();
-  bool all_released = !Cancellations(request, closed, stop).write(json);
+  bool all_released = !Cancellations(request, closed, work).write(json);
   const bool goes_on = all_released;
   const auto released = released_of_all(request, closed);
   json.key("orders").begin_array();
   for (std::size_t k = 0; goes_on && k < request.routes.size(); ++k) {
     const Route& route = request.routes[k];
     if (route.nodes.empty()) continue;
-    if (stop.met_after(kWorkOfANode * route.nodes.size())) return std::nullopt;
+    if (work.met_after(kWorkOfANode * route.nodes.size())) return std::nullopt;
     all_released = all_released && released[k] == route.nodes.size();
     const auto order = next_order(request, k, released[k]);
     if (!order) continue;
@@ -300,7 +300,7 @@ std::optional<std::string> write_orders(const VdaRequest& request, core::Work& s
     json.end_object();
   }
   json.end_array().member("all_released", all_released).end_object();
-  return stop.met() ? std::nullopt : std::optional(json.take());
+  return work.met() ? std::nullopt : std::optional(json.take());
 }
 
 }  // namespace fleetplan::api

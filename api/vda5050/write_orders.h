@@ -48,8 +48,8 @@ class OrderNames {
 /// Returns the answer of POST /v1/export/vda5050: an order for each robot with actions that has none, and an
 /// update for each one of whose order more nodes can be released. With each, it tells what its nodes mean for
 /// the plan. If orders have to be cancelled, it has the messages for that instead: until these vehicles
-/// stand, nobody may go on by this plan, as they are not where it has them. Returns none if the stop is met.
-std::optional<std::string> write_orders(const VdaRequest& request, core::Work& stop);
+/// stand, nobody may go on by this plan, as they are not where it has them. Returns none if `work` is met.
+std::optional<std::string> write_orders(const VdaRequest& request, core::Work& work);
 
 /// Writes the members `action` and `progress` of a place.
 void write_place(JsonWriter& json, const core::ActionPlace& place);

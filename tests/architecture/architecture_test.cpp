@@ -230,6 +230,9 @@ TEST(SourceRules, RejectLoopsInLoopsThatNothingBounds) {
   EXPECT_THAT(loops_of("int f(Work& work) {\n  for (int i : all)\n    for (int k : all) h(work);\n}\n"),
               IsEmpty());
   EXPECT_THAT(
+      loops_of("int f() {\n  for (int i : all) {\n    if (work_.met()) break;\n    while (b) c();\n  }\n}\n"),
+      IsEmpty());
+  EXPECT_THAT(
       loops_of("int f() {\n  for (int i : all) {\n    if (stop_.met()) break;\n    while (b) c();\n  }\n}\n"),
       IsEmpty());
   EXPECT_THAT(

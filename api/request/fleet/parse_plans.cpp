@@ -79,7 +79,7 @@ void settle_choices(const JsonReader& json, const core::RobotPlan& plan, ParsedR
     is_told = is_told || member;
   }
   if (is_told || read.open.empty()) return;
-  core::settle_by_actions(read.robot, read.open, plan.actions, true, json.stop().reading());
+  core::settle_by_actions(read.robot, read.open, plan.actions, true, json.work().reading());
 }
 
 core::RobotPlan parse_plan(const JsonReader& json, const WorldFrame& frame) {
@@ -145,7 +145,7 @@ std::vector<core::RobotPlan> parse_plans(const JsonReader& member, std::vector<P
   for (std::size_t k = 0; k < robots.size(); ++k) {
     if (is_planned[k] || robots[k].open.empty()) continue;
     core::settle_by_actions(robots[k].robot, robots[k].open, robots[k].robot.committed, false,
-                            member.stop().reading());
+                            member.work().reading());
   }
   return plans;
 }

@@ -52,12 +52,12 @@ std::string_view character_at(std::string_view text, std::size_t offset) {
   return text.substr(offset, end - offset);
 }
 
-/// Returns the grid of valid rows of one length, the top one first. Ends early when the stop is met.
-core::OccupancyGrid draw(const std::vector<std::string_view>& rows, double resolution, core::Work& stop) {
+/// Returns the grid of valid rows of one length, the top one first. Ends early when `work` is met.
+core::OccupancyGrid draw(const std::vector<std::string_view>& rows, double resolution, core::Work& work) {
   const int columns = static_cast<int>(rows.front().size());
   const int height = static_cast<int>(rows.size());
   core::OccupancyGrid grid(columns, height, resolution);
-  for (int line = 0; line < height && !stop.met_after(rows.front().size()); ++line) {
+  for (int line = 0; line < height && !work.met_after(rows.front().size()); ++line) {
     const std::string_view row = rows[static_cast<std::size_t>(line)];
     for (int column = 0; column < columns; ++column) {
       if (kind_of(row[static_cast<std::size_t>(column)]) == kBlocked) grid.block({column, height - 1 - line});
@@ -124,7 +124,7 @@ std::optional<WorldMap> parse_rows_map(const JsonReader& map, std::int64_t max_c
                  frame.resolution);
   }
   if (!rows || map.fault_count() != before) return std::nullopt;
-  return WorldMap{draw(*rows, frame.resolution, map.stop()), frame.frame};
+  return WorldMap{draw(*rows, frame.resolution, map.work()), frame.frame};
 }
 
 namespace {
@@ -233,9 +233,9 @@ bool is_blank(std::string_view line) { return std::all_of(line.begin(), line.end
 
 /// Reads the rows after the header. Blank lines may follow.
 Result<std::vector<std::string_view>, std::string> read_rows(Lines& lines, std::uint64_t width,
-                                                             std::uint64_t height, core::Work& stop) {
+                                                             std::uint64_t height, core::Work& work) {
   std::vector<std::string_view> rows;
-  while (!lines.at_end() && !stop.met_after(width)) {
+  while (!lines.at_end() && !work.met_after(width)) {
     const std::string_view row = lines.next();
     if (rows.size() == height) {
       if (is_blank(row)) continue;
@@ -247,7 +247,7 @@ Result<std::vector<std::string_view>, std::string> read_rows(Lines& lines, std::
     }
     rows.push_back(row);
   }
-  if (rows.size() != height && !stop.met()) return height_fault(height, rows.size());
+  if (rows.size() != height && !work.met()) return height_fault(height, rows.size());
   return rows;
 }
 
@@ -270,13 +270,13 @@ std::optional<WorldMap> parse_movingai_map(const JsonReader& map, std::int64_t m
   const auto sizes = read_header(lines);
   if (!sizes) return wrong(sizes.failure());
   if (!check_cells(member, *sizes->width, *sizes->height, max_cells)) return std::nullopt;
-  const auto rows = read_rows(lines, *sizes->width, *sizes->height, map.stop());
+  const auto rows = read_rows(lines, *sizes->width, *sizes->height, map.work());
   if (!rows) return wrong(rows.failure());
   const JsonReader resolution = map.find("resolution");
   check_extent(resolution ? resolution : member, static_cast<double>(*sizes->width),
                static_cast<double>(*sizes->height), frame.resolution);
-  if (map.fault_count() != before || map.stop().met()) return std::nullopt;
-  return WorldMap{draw(*rows, frame.resolution, map.stop()), frame.frame};
+  if (map.fault_count() != before || map.work().met()) return std::nullopt;
+  return WorldMap{draw(*rows, frame.resolution, map.work()), frame.frame};
 }
 
 }  // namespace fleetplan::api

@@ -166,7 +166,7 @@ void report_items(const JsonReader& data) {
   }
 }
 
-/// Reads the percentages, of which there are as many as cells, unless the stop is met.
+/// Reads the percentages, of which there are as many as cells, unless `work` is met.
 std::optional<std::vector<std::int8_t>> parse_data(const JsonReader& data) {
   std::vector<std::int8_t> percents;
   percents.reserve(data.size());
@@ -177,7 +177,7 @@ std::optional<std::vector<std::int8_t>> parse_data(const JsonReader& data) {
       return std::nullopt;
     }
     percents.push_back(*percent);
-    if (data.stop().met_after(kWorkOfAnItem)) return std::nullopt;
+    if (data.work().met_after(kWorkOfAnItem)) return std::nullopt;
   }
   return percents;
 }
@@ -225,12 +225,12 @@ constexpr std::size_t kOriginLength = 3;
 /// Reads whether unknown cells are free.
 bool parse_unknown(const JsonReader& member) { return member.word(kUnknown).value_or(0) == 1; }
 
-core::OccupancyGrid draw(const Raster& raster, double resolution, bool unknown_is_free, core::Work& stop) {
+core::OccupancyGrid draw(const Raster& raster, double resolution, bool unknown_is_free, core::Work& work) {
   const auto blocked = [&](std::int8_t percent) {
     return percent >= kLeastBlocked || (!unknown_is_free && (percent > kMostFree || percent < 0));
   };
   core::OccupancyGrid grid(raster.columns, raster.rows, resolution);
-  for (int row = 0; row < raster.rows && !stop.met_after(static_cast<std::size_t>(raster.columns)); ++row) {
+  for (int row = 0; row < raster.rows && !work.met_after(static_cast<std::size_t>(raster.columns)); ++row) {
     for (int column = 0; column < raster.columns; ++column) {
       if (blocked(raster.at(column, row))) grid.block({column, row});
     }
@@ -262,7 +262,7 @@ std::optional<WorldMap> parse_occupancy_grid_map(const JsonReader& map, std::int
   const bool unknown_is_free = parse_unknown(map.find("unknown"));
   const auto message = parse_occupancy_message(map.find("occupancy_grid"), max_cells);
   if (!message || map.fault_count() != before) return std::nullopt;
-  return WorldMap{draw(message->raster, message->resolution, unknown_is_free, map.stop()), message->frame};
+  return WorldMap{draw(message->raster, message->resolution, unknown_is_free, map.work()), message->frame};
 }
 
 std::optional<WorldMap> parse_image_map(const JsonReader& map, std::int64_t max_cells) {
@@ -276,7 +276,7 @@ std::optional<WorldMap> parse_image_map(const JsonReader& map, std::int64_t max_
   const auto raster = decode_image(image, max_cells);
   if (raster && pixel) check_extent(resolution, raster->columns, raster->rows, *pixel);
   if (!raster || map.fault_count() != before) return std::nullopt;
-  return WorldMap{draw(*raster, *pixel, unknown_is_free, map.stop()), frame};
+  return WorldMap{draw(*raster, *pixel, unknown_is_free, map.work()), frame};
 }
 
 }  // namespace fleetplan::api

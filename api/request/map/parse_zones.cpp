@@ -64,13 +64,13 @@ class Sides {
 
   /// Returns two sides that meet elsewhere than at their common corner, the earlier one first; none if there
   /// are none, or if the reading is stopped.
-  std::optional<std::pair<std::size_t, std::size_t>> touching_sides(core::Work& stop) const {
+  std::optional<std::pair<std::size_t, std::size_t>> touching_sides(core::Work& work) const {
     std::vector<std::size_t> order(corners_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return left(i) < left(j); });
     for (std::size_t i = 0; i < order.size(); ++i) {
       for (std::size_t j = i + 1; j < order.size() && left(order[j]) <= right(order[i]); ++j) {
-        if (stop.met_after(kWorkOfAComparison)) return std::nullopt;
+        if (work.met_after(kWorkOfAComparison)) return std::nullopt;
         const auto [first, second] = std::minmax(order[i], order[j]);
         if (are_at_fault(first, second)) return std::pair(first, second);
       }
@@ -141,7 +141,7 @@ std::vector<core::Position> parse_polygon(const JsonReader& member, const WorldF
   }
   Corners read = parse_corners(list, frame);
   if (read.empty()) return {};
-  if (const auto met = Sides(read).touching_sides(list.stop())) {
+  if (const auto met = Sides(read).touching_sides(list.work())) {
     const std::string first = std::to_string(met->first);
     const std::string second = std::to_string(met->second);
     list.fault(fault::kBadPolygon,
@@ -196,12 +196,12 @@ MaskPart part(const Run& run, int first_row, int last_row, double resolution) {
 
 /// Joins equal runs of rows above each other. Ends soon after there are more than `most` parts.
 template <class Value>
-std::vector<MaskPart> parts_of(const Raster& raster, double resolution, std::size_t most, core::Work& stop,
+std::vector<MaskPart> parts_of(const Raster& raster, double resolution, std::size_t most, core::Work& work,
                                const Value& value) {
   std::vector<MaskPart> parts;
   std::map<Run, int> open;  // open runs, with the rows where they begin
   for (int row = 0; row <= raster.rows && parts.size() <= most; ++row) {
-    if (stop.met_after(static_cast<std::size_t>(raster.columns))) break;
+    if (work.met_after(static_cast<std::size_t>(raster.columns))) break;
     std::map<Run, int> next;
     if (row < raster.rows) {
       for (const Run& run :
@@ -234,7 +234,7 @@ std::vector<MaskPart> parse_mask(const JsonReader& member, const core::Occupancy
   }
   if (member.fault_count() != faults) return {};
   constexpr std::size_t kCorners = 4;
-  std::vector<MaskPart> parts = parts_of(*raster, map.resolution(), corners.left() / kCorners, member.stop(),
+  std::vector<MaskPart> parts = parts_of(*raster, map.resolution(), corners.left() / kCorners, member.work(),
                                          [&](std::int8_t percent) -> std::int8_t {
                                            if (by_percent) return percent > 0 ? percent : std::int8_t{0};
                                            return percent >= kLeastOccupied ? kWhole : std::int8_t{0};
@@ -308,7 +308,7 @@ class ZoneReader {
     if (map_ == nullptr) return {};
     std::vector<core::Zone> zones;
     for (const MaskPart& part : parse_mask(mask, map_->grid, zone.type == Type::speed, corners_)) {
-      if (mask.stop().met_after(kWorkOfAPart)) return {};
+      if (mask.work().met_after(kWorkOfAPart)) return {};
       core::Zone& cells = zones.emplace_back(zone);
       cells.polygon = part.polygon;
       if (zone.type == Type::speed) cells.linear_speed_share = part.percent / 100.0;

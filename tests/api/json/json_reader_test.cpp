@@ -59,7 +59,7 @@ TEST(JsonReader, ReadsNothingFromAnAbsentValueWithoutAFault) {
   EXPECT_TRUE(read.faults.empty());
   for (const JsonReader& part :
        {absent, absent.object(kMembers), absent.array(), absent.find("b"), absent.require("b")}) {
-    EXPECT_EQ(&part.stop(), &JsonReader(read).stop()) << "work for what is absent is bounded, too";
+    EXPECT_EQ(&part.work(), &JsonReader(read).work()) << "work for what is absent is bounded, too";
   }
 }
 

@@ -45,7 +45,7 @@ std::string letter_fault(std::string_view text, std::size_t from) {
 
 }  // namespace
 
-Result<Bytes, std::string> decode_base64(std::string_view text, core::Work& stop) {
+Result<Bytes, std::string> decode_base64(std::string_view text, core::Work& work) {
   if (text.starts_with("data:")) {
     constexpr std::size_t kLongestPrefix = 64;
     const std::string_view prefix = text.substr(0, text.substr(0, kLongestPrefix).find(',') + 1);
@@ -75,7 +75,7 @@ Result<Bytes, std::string> decode_base64(std::string_view text, core::Work& stop
       *target++ = static_cast<std::uint8_t>(c << 6U | d);
     }
     if ((seen & kInvalid) != 0) return letter_fault(text.substr(0, letters), begin);
-    if (stop.met_after(end - begin)) return bytes;
+    if (work.met_after(end - begin)) return bytes;
   }
   if (padding == 0) return bytes;
   const std::uint32_t a = value_of(text[whole]);
@@ -174,8 +174,8 @@ JsonReader parse_file(const JsonReader& image) {
   return {};
 }
 
-/// Decodes rows from the top until the stop is met.
-Result<Raster, std::string> decode(ImageReader& reader, const ShadeRule& rule, core::Work& stop) {
+/// Decodes rows from the top until `work` is met.
+Result<Raster, std::string> decode(ImageReader& reader, const ShadeRule& rule, core::Work& work) {
   const ImageHeader& header = reader.header();
   const OccupancyOfPixels occupancy(rule, header);
   const auto columns = static_cast<std::size_t>(header.columns);
@@ -183,7 +183,7 @@ Result<Raster, std::string> decode(ImageReader& reader, const ShadeRule& rule, c
   Raster raster{header.columns, header.rows,
                 std::vector<std::int8_t>(columns * static_cast<std::size_t>(header.rows))};
   std::int8_t* line = raster.occupancy.data() + raster.occupancy.size();
-  for (int row = 0; row < header.rows && !stop.met_after(columns * channels); ++row) {
+  for (int row = 0; row < header.rows && !work.met_after(columns * channels); ++row) {
     const auto pixels = reader.next_row();
     if (!pixels) return pixels.failure();
     line -= columns;
@@ -200,24 +200,24 @@ std::optional<Raster> decode_image(const JsonReader& image, std::int64_t most) {
   const auto rule = parse_rule(image);
   const JsonReader file = parse_file(image);
   if (!rule || !file) return std::nullopt;
-  core::Work& stop = file.stop();
+  core::Work& work = file.work();
   const bool is_png = file.value().key() == "png";
   const auto damaged = [&](const std::string& detail) {
-    if (!stop.met()) file.fault(fault::kBadImage, "The image cannot be read. " + detail);
+    if (!work.met()) file.fault(fault::kBadImage, "The image cannot be read. " + detail);
     return std::nullopt;
   };
-  const auto bytes = decode_base64(*file.string(), stop);
+  const auto bytes = decode_base64(*file.string(), work);
   if (!bytes) return damaged("It " + bytes.failure() + ".");
-  if (stop.met()) return std::nullopt;
-  auto opened = is_png ? open_png(*bytes, most, stop) : open_pgm(*bytes, most);
+  if (work.met()) return std::nullopt;
+  auto opened = is_png ? open_png(*bytes, most, work) : open_pgm(*bytes, most);
   if (!opened) {
     if (!opened.failure().too_large) return damaged(opened.failure().detail);
     file.fault(fault::kOutOfRange, "The image is too large. " + opened.failure().detail);
     return std::nullopt;
   }
-  auto raster = decode(**opened, *rule, stop);
+  auto raster = decode(**opened, *rule, work);
   if (!raster) return damaged(raster.failure());
-  if (stop.met()) return std::nullopt;
+  if (work.met()) return std::nullopt;
   return std::move(*raster);
 }
 

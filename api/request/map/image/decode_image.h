@@ -61,12 +61,9 @@ std::optional<ImageFault> size_fault(std::uint64_t columns, std::uint64_t rows, 
 OpenedImage open_pgm(std::span<const std::uint8_t> bytes, std::int64_t most);
 
 /// Opens a PNG of at most `most` pixels. Palettes, grays of fewer than 8 bits and transparent colours are
-/// expanded. Whatever is not needed for the pixels, or follows them, stays unread. `stop` ends the reading,
+/// expanded. Whatever is not needed for the pixels, or follows them, stays unread. `work` ends the reading,
 /// with any result.
-OpenedImage open_png(std::span<const std::uint8_t> bytes, std::int64_t most, core::Work& stop);
-
-// Makes occupancy of the pixels of a map's image as map_server of ROS does (nav2_map_server/src/map_io.cpp),
-// from the text of the request to the raster.
+OpenedImage open_png(std::span<const std::uint8_t> bytes, std::int64_t most, core::Work& work);
 
 inline constexpr std::int8_t kUnknownOccupancy = -1;
 
@@ -85,8 +82,8 @@ struct Raster {
 using Bytes = std::vector<std::uint8_t>;
 
 /// Decodes a base64 text of RFC 4648, section 4: padded, without line breaks. The failure says what is wrong,
-/// after "it ". When the stop is met, returns what was decoded so far.
-Result<Bytes, std::string> decode_base64(std::string_view text, core::Work& stop);
+/// after "it ". When `work` is met, returns what was decoded so far.
+Result<Bytes, std::string> decode_base64(std::string_view text, core::Work& work);
 
 inline constexpr std::int8_t kFullOccupancy = 100;
 

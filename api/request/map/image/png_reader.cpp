@@ -2,7 +2,7 @@
 // errors leave by longjmp, over frames of the library and of the small functions here that call it; none of
 // these has an object with a destructor.
 //
-// The library asks for all bytes by on_read, which asks the stop condition: it reads little between two calls
+// The library asks for all bytes by on_read, which asks the work: it reads little between two calls
 // (kReadAtOnce), and the chunks that it does not need are skipped without being decompressed.
 
 #include <png.h>
@@ -37,7 +37,7 @@ constexpr std::size_t kMostBehindPixels = 64;
 /// What the library and this reader tell each other.
 struct Source {
   std::span<const std::uint8_t> bytes;
-  core::Work* stop = nullptr;
+  core::Work* work = nullptr;
   std::size_t at = 0;
   png_uint_32 rows = PNG_UINT_32_MAX;  // unknown at first
   std::size_t behind_pixels = 0;       // bytes read there
@@ -63,7 +63,7 @@ bool has_all_pixels(png_structp png, const Source& source) {
 
 void on_read(png_structp png, png_bytep target, std::size_t size) {
   auto* source = static_cast<Source*>(png_get_io_ptr(png));
-  if (source->stop->met_after(size)) png_error(png, "the reading was stopped");
+  if (source->work->met_after(size)) png_error(png, "the reading was stopped");
   if (has_all_pixels(png, *source)) {
     source->behind_pixels += size;
     if (source->behind_pixels > kMostBehindPixels) png_error(png, "data behind the pixels");
@@ -112,8 +112,8 @@ bool try_to_read_row(png_structp png, std::uint8_t* row) {
 /// The structures of the library.
 class Handle {
  public:
-  Handle(std::span<const std::uint8_t> bytes, core::Work& stop)
-      : source_{bytes, &stop},
+  Handle(std::span<const std::uint8_t> bytes, core::Work& work)
+      : source_{bytes, &work},
         png_(png_create_read_struct_2(PNG_LIBPNG_VER_STRING, &source_, on_error, on_warning, &source_,
                                       on_allocate, on_free)) {
     if (png_ != nullptr) info_ = png_create_info_struct(png_);
@@ -159,10 +159,10 @@ class Handle {
 
 class PngReader final : public ImageReader {
  public:
-  PngReader(std::unique_ptr<Handle> handle, const ImageHeader& header, core::Work& stop)
+  PngReader(std::unique_ptr<Handle> handle, const ImageHeader& header, core::Work& work)
       : ImageReader(header),
         handle_(std::move(handle)),
-        stop_(stop),
+        work_(work),
         wide_(png_get_bit_depth(handle_->png(), handle_->info()) == 16),
         interlaced_(png_get_interlace_type(handle_->png(), handle_->info()) != PNG_INTERLACE_NONE),
         row_bytes_(png_get_rowbytes(handle_->png(), handle_->info())),
@@ -186,7 +186,7 @@ class PngReader final : public ImageReader {
     for (int pass = 0; pass < PNG_INTERLACE_ADAM7_PASSES; ++pass) {
       for (int row = 0; row < header().rows; ++row) {
         if (!handle_->read_row(bytes_.data() + row_bytes_ * static_cast<std::size_t>(row))) return false;
-        if (stop_.met_after(row_bytes_)) return true;
+        if (work_.met_after(row_bytes_)) return true;
       }
     }
     return true;
@@ -201,7 +201,7 @@ class PngReader final : public ImageReader {
   }
 
   std::unique_ptr<Handle> handle_;
-  core::Work& stop_;
+  core::Work& work_;
   bool wide_;  // channels have 16 bits
   bool interlaced_;
   std::size_t row_bytes_;
@@ -223,16 +223,16 @@ std::optional<ImageFault> beginning_fault(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
-OpenedImage open_png(std::span<const std::uint8_t> bytes, std::int64_t most, core::Work& stop) {
+OpenedImage open_png(std::span<const std::uint8_t> bytes, std::int64_t most, core::Work& work) {
   if (auto fault = beginning_fault(bytes)) return *fault;
-  auto handle = std::make_unique<Handle>(bytes, stop);
+  auto handle = std::make_unique<Handle>(bytes, work);
   const bool has_header = handle->read_header();
   // The library knows the size also if it rejects it.
   if (auto fault = size_fault(handle->columns(), handle->rows(), most)) return *fault;
   if (!has_header || !handle->begin_rows()) return ImageFault{handle->error()};
   const ImageHeader header{static_cast<int>(handle->columns()), static_cast<int>(handle->rows()),
                            png_get_channels(handle->png(), handle->info()), 65535};
-  return std::unique_ptr<ImageReader>(std::make_unique<PngReader>(std::move(handle), header, stop));
+  return std::unique_ptr<ImageReader>(std::make_unique<PngReader>(std::move(handle), header, work));
 }
 
 }  // namespace fleetplan::api

@@ -36,9 +36,9 @@ struct Read {
   bool too_large = false;
 };
 
-Read read_png(const std::string& file, core::Work& stop = unbounded_work()) {
+Read read_png(const std::string& file, core::Work& work = unbounded_work()) {
   const auto opened =
-      open_png({reinterpret_cast<const std::uint8_t*>(file.data()), file.size()}, kMost, stop);
+      open_png({reinterpret_cast<const std::uint8_t*>(file.data()), file.size()}, kMost, work);
   if (!opened) return {{}, opened.failure().detail, opened.failure().too_large};
   Read read;
   for (int row = 0; row < (*opened)->header().rows; ++row) {
