@@ -250,6 +250,14 @@ TEST(SourceRules, FindFoldersThatIncludeEachOther) {
               ElementsAre("api and api/json"));
   EXPECT_THAT(mutual_includes({{"core/model/a.h", of_map + of_model}, {"core/map/b.h", "// " + of_model}}),
               IsEmpty());
+  const std::string of_robots = "#include \"api/request/fleet/robots.h\"\n";
+  const std::string of_zones = "#include \"api/request/map/image/zones.h\"\n";
+  EXPECT_THAT(mutual_includes(
+                  {{"api/request/map/image/zones.h", of_robots}, {"api/request/fleet/robots.h", of_zones}}),
+              ElementsAre("api/request/fleet and api/request/map"));
+  EXPECT_THAT(mutual_includes({{"api/request/a.h", of_robots},
+                               {"api/request/fleet/robots.h", "#include \"api/request/a.h\"\n"}}),
+              IsEmpty());
 }
 
 TEST(SourceRules, RejectOtherFolders) {

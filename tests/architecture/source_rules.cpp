@@ -227,6 +227,22 @@ string_view folder_of(string_view path) {
   return path.substr(0, folder_end == string_view::npos ? layer_end : folder_end);
 }
 
+/// The folders next to each other that two files are in, wherever these are: "core/verify/rules" and
+/// "core/verify/pairs". None if one file is in a folder around the other one.
+std::optional<std::pair<string_view, string_view>> siblings(string_view path, string_view other) {
+  const auto folder_until = [](string_view file, std::size_t begin) {
+    const std::size_t end = file.find('/', begin);
+    return end == string_view::npos ? string_view() : file.substr(0, end);
+  };
+  for (std::size_t begin = 0;;) {
+    const string_view mine = folder_until(path, begin);
+    const string_view others = folder_until(other, begin);
+    if (mine.empty() || others.empty()) return std::nullopt;
+    if (mine != others) return std::pair(mine, others);
+    begin = mine.size() + 1;
+  }
+}
+
 /// Whether only blanks and comments come before it; comments are blanked out in `code`.
 bool begins_with_pragma_once(string_view code) {
   const std::size_t first = code.find_first_not_of(" \t\r\n");
@@ -277,7 +293,9 @@ std::vector<std::string> mutual_includes(const std::map<std::string, std::string
     for (const string_view line : lines_of(code)) {
       const auto include = included(line);
       if (!include || !starts_with_any(include->substr(1), kLayers)) continue;
-      includes.emplace(folder_of(path), folder_of(include->substr(1, include->size() - 2)));
+      const string_view name = include->substr(1, include->size() - 2);
+      includes.emplace(folder_of(path), folder_of(name));
+      if (const auto folders = siblings(path, name)) includes.emplace(folders->first, folders->second);
     }
   }
   std::vector<std::string> pairs;
