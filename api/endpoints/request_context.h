@@ -87,8 +87,6 @@ class ProgressReporter final : public core::Observer {
   std::optional<Reply> rejection_;
 };
 
-// What an endpoint gets of its request beside the body.
-
 /// What a request needs of the server, known once it is parsed.
 struct TurnNeed {
   enum class Kind { plan, check, simulation, conversion, travel };

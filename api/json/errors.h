@@ -1,7 +1,8 @@
 #pragma once
 
-// Expected failures: the faults of a request's content, the errors of the service, from one table, and
-// results that are either a value or a failure.
+// Expected failures: the faults of a request's content (what they are, where they stand, and the phrases of
+// their details), the errors of the service, from one table, and results that are either a value or a
+// failure.
 
 #include <cstddef>
 #include <span>
@@ -39,8 +40,6 @@ class [[nodiscard]] Result {
  private:
   std::variant<Value, Failure> held_;
 };
-
-// The faults of a request's content: what they are, where they stand, and the phrases of their details.
 
 /// One fault of a request's content.
 struct Fault {
@@ -145,8 +144,6 @@ std::string pointer_step(std::string_view key);
 /// Returns where and why a body is not JSON: line, column and byte (each from 1; columns in bytes) and the
 /// text there. `position`: how many bytes had been read when the parser stopped.
 std::string explain_malformed(std::string_view body, std::size_t position);
-
-// The errors of the service, from one table, and why a request cannot be read.
 
 /// Every error of the service; its row in the table (errors.cpp) gives the HTTP status, `code` and `title`.
 enum class ErrorCode {

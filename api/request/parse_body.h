@@ -27,8 +27,6 @@ namespace fleetplan::api {
 std::vector<core::MovingObstacle> parse_obstacles(const JsonReader& member, const WorldFrame& frame,
                                                   const Limits& limits, UniqueIds& ids);
 
-// The parts that requests share: reading the body, and the map, the robots and the options in it.
-
 /// `map`, `robots` (with `robot_defaults`), `obstacles`, `zones` and `options` of a request, as far as they
 /// could be read.
 struct Fleet {

@@ -100,8 +100,6 @@ struct GoalTexts {
   bool empty() const { return metadata.empty() && actions.empty() && any_of.empty(); }
 };
 
-// The parts of a robot of the request that an answer repeats.
-
 /// The actions of a request as they were received, in the world and with their headings as given. Only those
 /// are kept that the core's numbers do not give back: the map's origin rounds them, or they were joined to
 /// the action before.

@@ -1,7 +1,7 @@
 #pragma once
 
 // The actions of a robot as the nodes and edges of a VDA 5050 order, and which of the nodes the vehicle may
-// pass.
+// pass: dependencies become releases of nodes.
 
 #include <cstddef>
 #include <cstdint>

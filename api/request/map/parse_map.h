@@ -21,8 +21,6 @@ struct WorldMap {
 /// most `max_cells` cells. Returns none when it has a fault or when the reading of the document is stopped.
 std::optional<WorldMap> parse_map(const JsonReader& member, std::int64_t max_cells);
 
-// The kinds of maps, and what they have in common: their size, and where they lie.
-
 /// Members `resolution` and `origin` {x, y} of a map; 1 m and (0, 0) if they are not there.
 struct MapFrame {
   double resolution = 1.0;

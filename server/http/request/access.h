@@ -1,7 +1,7 @@
 #pragma once
 
 // Who may use the service: clients with the token, under allowed host names, from pages of allowed origins;
-// and which client a request is from.
+// and which client a request is from, also behind proxies that an operator trusts.
 
 #include <array>
 #include <cstdint>
@@ -91,8 +91,6 @@ class CrossOrigin {
 
 /// Returns why CrossOrigin does not accept this origin; none when it does.
 std::optional<std::string> origin_fault(std::string_view origin);
-
-// The address of a client, also behind proxies that an operator trusts.
 
 /// An IP address; one of IPv4 as IPv6 maps it.
 using IpAddress = std::array<std::uint8_t, 16>;

@@ -1,7 +1,8 @@
 #pragma once
 
 // The head of an HTTP/1.x request: request line and header fields, parsed strictly (RFC 9112). Input that two
-// parsers read differently allows request smuggling.
+// parsers read differently allows request smuggling. Also the characters of fields and trailers (RFC 9110,
+// 5.6), and the ids by which a request is found in logs: its own, and that of the trace it belongs to.
 
 #include <algorithm>
 #include <cstddef>
@@ -27,8 +28,6 @@ std::optional<Authority> parse_authority(std::string_view text);
 /// Whether a name is one of this machine alone: localhost, 127.0.0.0/8 and ::1, the last with or without
 /// brackets.
 bool is_local_name(std::string_view host);
-
-// The characters of header fields and trailers (RFC 9110, 5.6).
 
 inline bool is_token_char(char c) {
   constexpr std::string_view kMarks = "!#$%&'*+-.^_`|~";
@@ -113,8 +112,6 @@ class HeadScanner {
   std::size_t position_ = 0;
   std::size_t line_start_ = 0;
 };
-
-// The ids by which a request is found in logs: its own, and that of the trace it belongs to.
 
 /// Whether an id has 1..128 characters of [A-Za-z0-9._-]: safe in a header, a log line and a file name.
 bool is_well_formed_request_id(std::string_view id);

@@ -1,5 +1,8 @@
 #pragma once
 
+// Images of maps, from the text of the request to the raster: reads their pixels row by row, and makes
+// occupancy of them as map_server of ROS does (nav2_map_server/src/map_io.cpp).
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
