@@ -58,9 +58,9 @@ core::StopCondition check_stop(const core::StopCondition& planning, const PlanRe
   constexpr std::chrono::milliseconds kMostAfterPlanning{90};
   constexpr std::chrono::milliseconds kLeastCpu{25};
   if (planning.cancelled()) {
-    return core::StopCondition::even_if_cancelled(Stages::Clock::now() + kMostAfterPlanning / 2);
+    return core::StopCondition::even_if_cancelled(StageTimes::Clock::now() + kMostAfterPlanning / 2);
   }
-  if (planning.deadline() == Stages::Clock::time_point::max()) return planning;
+  if (planning.deadline() == StageTimes::Clock::time_point::max()) return planning;
   const auto most = std::max<std::chrono::nanoseconds>(kMostAfterPlanning, for_answer(request));
   return planning.until(planning.deadline() + most).with_cpu_time(kLeastCpu);
 }
@@ -68,10 +68,10 @@ core::StopCondition check_stop(const core::StopCondition& planning, const PlanRe
 /// Returns when to give up the check of an answer in which no robot moves, if there is no other answer: with
 /// the budget, and not too soon after it. The time for reading the request tells how large it is and how busy
 /// the machine.
-core::StopCondition last_stop(const Stages& stages, const core::StopCondition& planning,
+core::StopCondition last_stop(const StageTimes& stages, const core::StopCondition& planning,
                               const PlanRequest& request) {
-  constexpr Stages::Clock::duration kLeast = std::chrono::milliseconds(200);
-  const auto patience = Stages::Clock::now() + std::max(kLeast, stages.parsed - stages.received);
+  constexpr StageTimes::Clock::duration kLeast = std::chrono::milliseconds(200);
+  const auto patience = StageTimes::Clock::now() + std::max(kLeast, stages.parsed - stages.received);
   if (planning.cancelled()) return core::StopCondition::even_if_cancelled(patience).despite_memory();
   const core::StopCondition check = check_stop(planning, request);
   return planning.until(std::max(patience, check.deadline())).despite_memory();
@@ -142,7 +142,7 @@ std::vector<double> reported_spacings(const PlanRequest& request) {
 /// Returns the dependencies of the answer; none if they are not asked for. They have to be made within the
 /// budget.
 std::optional<PlanDependencies> answer_dependencies(const core::Plan& plan, const PlanRequest& request,
-                                                    const Stages& stages,
+                                                    const StageTimes& stages,
                                                     const core::StopCondition& planning) {
   if (!request.dependencies.wanted) return std::nullopt;
   const core::StopCondition stop = planning.until(stages.received + request.budget);
@@ -185,8 +185,8 @@ std::vector<std::string> stuck_warning(const core::Plan& plan, const std::vector
 /// that move: a plan that is not checked is never returned. `stages`: those before the plan was made.
 /// `on_answer`, which may be empty, gets the plan of the answer.
 Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std::string& request_id,
-                  Stages stages, const core::StopCondition& stop, const AnsweredPlan& on_answer) {
-  stages.planned = Stages::Clock::now();
+                  StageTimes stages, const core::StopCondition& stop, const AnsweredPlan& on_answer) {
+  stages.planned = StageTimes::Clock::now();
   const auto check = [&](const core::Plan& checked, const core::StopCondition& patience) {
     return core::check_plan(request.problem, request.options, checked, patience);
   };
@@ -210,7 +210,7 @@ Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std:
   std::vector<std::string> warnings =
       joined(request.warnings, stuck_warning(answered, request.problem.robots()));
   if (dependencies) warnings = joined(std::move(warnings), dependencies->warnings);
-  stages.verified = Stages::Clock::now();
+  stages.verified = StageTimes::Clock::now();
   if (on_answer) on_answer(request.problem, answered);
   const VerifiedPlan verified{.plan = answered,
                               .report = *report,
@@ -296,7 +296,8 @@ constexpr double kShareForChoices = 0.25;
 
 /// Chooses the poses for open goals by how long robots take. Returns false if that was not finished in time;
 /// then they keep those that are near.
-bool choose_poses(PlanRequest& request, const core::StopCondition& planning, core::Executor& executor) {
+bool choose_poses_by_arrival(PlanRequest& request, const core::StopCondition& planning,
+                             core::Executor& executor) {
   if (!request.open) return true;
   const core::StopCondition stop = core::after_share(planning, kShareForChoices);
   bool finished = false;
@@ -333,7 +334,7 @@ core::Plan with_other_poses(core::Plan plan, PlanRequest& request, const core::S
   for (int k = 0; request.open && !plan.unplanned.empty() && k < kMostSecondChoices; ++k) {
     PlanRequest other = request;
     if (!give_up_poses(plan, other)) break;
-    if (stop.met() || !choose_poses(other, stop, executor)) {
+    if (stop.met() || !choose_poses_by_arrival(other, stop, executor)) {
       plan.deterministic = false;
       break;
     }
@@ -350,7 +351,8 @@ core::Plan with_other_poses(core::Plan plan, PlanRequest& request, const core::S
 
 Reply planned(const Planner& planner, std::string_view body, const RequestContext& context,
               core::Work& work) {
-  Stages stages{.received = context.received_at, .parsed = {}, .started = {}, .planned = {}, .verified = {}};
+  StageTimes stages{
+      .received = context.received_at, .parsed = {}, .started = {}, .planned = {}, .verified = {}};
   const auto begin = Clock::now();
   auto request = parse_request(body, context.limits, work, context.maps);
   if (!request) return problem_reply(request.failure(), context.request_id);
@@ -389,7 +391,7 @@ Reply planned(const Planner& planner, std::string_view body, const RequestContex
   }
   core::CallerThread callers_thread;
   core::Executor& executor = context.executor != nullptr ? *context.executor : callers_thread;
-  const bool is_chosen = choose_poses(*request, stop, executor);
+  const bool is_chosen = choose_poses_by_arrival(*request, stop, executor);
   const auto plan_with_poses = [&](const PlanRequest& one) {
     return plan_or_none(planner, one, stop, reporter ? &*reporter : nullptr);
   };

@@ -317,11 +317,11 @@ void write_unavoidable(JsonWriter& json, const core::UnavoidableCollision& colli
   json.member("t", collision.t).end_object();
 }
 
-void write_timings(JsonWriter& json, const Stages& stages) {
-  const auto milliseconds = [](Stages::Time from, Stages::Time to) {
+void write_timings(JsonWriter& json, const StageTimes& stages) {
+  const auto milliseconds = [](StageTimes::Time from, StageTimes::Time to) {
     return std::chrono::duration<double, std::milli>(to - from).count();
   };
-  const Stages::Time now = Stages::Clock::now();
+  const StageTimes::Time now = StageTimes::Clock::now();
   json.key("timings_ms").begin_object();
   json.member("queue", milliseconds(stages.parsed, stages.started));
   json.member("parse", milliseconds(stages.received, stages.parsed));
@@ -359,7 +359,7 @@ void write_summary(JsonWriter& json, const VerifiedPlan& verified) {
 }  // namespace
 
 std::string write_response(const VerifiedPlan& verified, const std::string& request_id,
-                           const Stages& stages) {
+                           const StageTimes& stages) {
   const core::Plan& plan = verified.plan;
   std::size_t actions = 0;
   for (const core::RobotPlan& one : plan.plans) actions += one.actions.size();

@@ -26,7 +26,7 @@ namespace fleetplan::api {
 struct SimulateRequest;
 
 /// When the stages of a request ended.
-struct Stages {
+struct StageTimes {
   using Clock = std::chrono::steady_clock;
   using Time = Clock::time_point;
   Time received;  // last byte of the body in
@@ -52,7 +52,8 @@ struct VerifiedPlan {
 };
 
 /// Returns the answer of POST /v1/plan. Writing ends with the timings, so that they include it.
-std::string write_response(const VerifiedPlan& verified, const std::string& request_id, const Stages& stages);
+std::string write_response(const VerifiedPlan& verified, const std::string& request_id,
+                           const StageTimes& stages);
 
 /// Writes the member `actions` of a robot. Committed actions, and previous ones that the plan repeats, have
 /// the numbers received; what follows begins with the position in which they end. `origin` is that of the map
