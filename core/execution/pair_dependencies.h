@@ -10,7 +10,7 @@
 
 #include "core/execution/executed_actions.h"
 #include "core/execution/staircase.h"
-#include "core/reservation/bucket_grid.h"
+#include "core/geometry/bucket_grid.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "core/commitments/contacts.h"
+#include "core/geometry/bucket_grid.h"
 #include "core/geometry/disk_motion.h"
 #include "core/geometry/segment.h"
 #include "core/model/loads.h"
-#include "core/reservation/bucket_grid.h"
 #include "core/runtime/arrays.h"
 
 namespace fleetplan::core {

@@ -82,7 +82,7 @@ const std::vector<FolderRule>& folder_rules() {
       {"core/sipp/", all_robots, {}},
       // Execution works with plans, whoever made them.
       {"core/execution/",
-       {"core/sipp/", "core/prioritized/", "core/lns/", "core/bounds/", "core/replan/"},
+       {"core/reservation/", "core/sipp/", "core/prioritized/", "core/lns/", "core/bounds/", "core/replan/"},
        {}},
       // The checker is independent: it shares no collision test with the search.
       {"core/verify/",

@@ -1,4 +1,4 @@
-#include "core/reservation/bucket_grid.h"
+#include "core/geometry/bucket_grid.h"
 
 #include <gtest/gtest.h>
 
