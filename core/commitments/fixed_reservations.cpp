@@ -97,7 +97,7 @@ FixedReservations::FixedReservations(double width, double height, std::vector<Ro
 }
 
 bool FixedReservations::departs(std::size_t robot, const Position& from) const {
-  return is_same_position(robots_[robot].departure, from);
+  return is_same_position(robots_[robot].committed_end, from);
 }
 
 }  // namespace fleetplan::core

@@ -19,12 +19,12 @@ class FixedReservations {
   /// A robot's committed motion, and where it begins what is planned for it.
   struct Robot {
     LargestDisk disk;
-    Position start{0.0, 0.0};             // at t = 0
-    Position departure{0.0, 0.0};         // at `t_departure`: the end of the committed motion, or the start
-    double t_departure = 0.0;             // seconds
-    std::vector<SizedSegment> committed;  // contiguous, from t = 0 to `t_departure`
-    double radius_at_start = 0.0;         // metres, at t = 0
-    double radius_at_departure = 0.0;     // metres, at `t_departure`
+    Position start{0.0, 0.0};              // at t = 0
+    Position committed_end{0.0, 0.0};      // where the committed motion ends; the start without any
+    double committed_until = 0.0;          // seconds: when that ends; 0 without any
+    std::vector<SizedSegment> committed;   // contiguous, from t = 0 to `committed_until`
+    double radius_at_start = 0.0;          // metres, at t = 0
+    double radius_at_committed_end = 0.0;  // metres, at `committed_until`
   };
   /// A part of the motion of an obstacle or of a robot.
   struct Occupant {

@@ -127,7 +127,7 @@ class StepGraph {
 };
 
 /// How a robot has come to a vertex, stayed there, and left it.
-struct Departure {
+struct VertexStay {
   std::vector<TimedSegment> phases;  // contiguous; none if nobody has left it yet
   double radius = 0.0;               // metres, to other robots
 };
@@ -170,7 +170,7 @@ class TimedSteps {
   static constexpr int kNobody = -1;
   struct Vertex {
     int robot = kNobody;      // which one, by its place in `robots`, begins the present step there
-    Departure last;           // of the last robot that left
+    VertexStay last;          // of the last robot that left
     double others_until = 0;  // seconds: when the robots before that one have arrived elsewhere
   };
 

@@ -142,7 +142,7 @@ class ReservationTable::FixedDistance {
         radius_(mine.radius),
         pair_radius_(table.index_->disk(robot_).pair_radius_with(radius_)),
         departs_(fixed_.departs(robot_, path.from)),
-        stays_(departs_ && path.from == path.to && radius_ == fixed_.robot(robot_).radius_at_departure) {
+        stays_(departs_ && path.from == path.to && radius_ == fixed_.robot(robot_).radius_at_committed_end) {
     if (contacts_ != nullptr) endpoint_ = contacts_->endpoint(robot_, path, radius_, mine.has_left);
   }
 
@@ -160,7 +160,7 @@ class ReservationTable::FixedDistance {
     if (!stays_) return distance;
     distance = std::min(distance, radius_ + other.radius - kContactTolerance);
     const FixedReservations::Robot& mine = fixed_.robot(robot_);
-    const bool is_at_start = mine.start == mine.departure && radius_ == mine.radius_at_start;
+    const bool is_at_start = mine.start == mine.committed_end && radius_ == mine.radius_at_start;
     if (!other.from_start || !is_at_start) return distance;
     const Position& their_start = fixed_.robot(other.robot).start;
     return std::min(distance, (mine.start - their_start).norm() - 2.0 * kSamePosition);
@@ -193,7 +193,7 @@ bool ReservationTable::is_costly() const {
 }
 
 double ReservationTable::departure(std::size_t robot) const {
-  return fixed_ != nullptr ? fixed_->robot(robot).t_departure : 0.0;
+  return fixed_ != nullptr ? fixed_->robot(robot).committed_until : 0.0;
 }
 
 bool ReservationTable::departs(std::size_t robot, const Position& from) const {

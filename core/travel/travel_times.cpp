@@ -122,7 +122,7 @@ std::optional<TravelAnswers> travel_times(const Problem& problem, const PlanOpti
 namespace {
 
 /// The pose from which a way begins.
-struct Departure {
+struct WayBegin {
   Pose pose;
   bool any_heading = false;
   bool is_start = false;  // where a robot is; it may be inside of a zone that it may leave
@@ -142,8 +142,8 @@ class Kind {
   Kind(std::size_t like, const Load& load) : like_(like), load_(load) {}
 
   /// Returns the column and the row of the way.
-  std::pair<std::size_t, std::size_t> ask(const Departure& from, const Goal& to) {
-    const std::size_t robot = departure(from);
+  std::pair<std::size_t, std::size_t> ask(const WayBegin& from, const Goal& to) {
+    const std::size_t robot = begin_of(from);
     const GoalKey key{to.position.x(), to.position.y(), to.theta};
     const auto [found, is_new] = columns_.emplace(key, questions_.columns.size());
     if (is_new) questions_.columns.push_back({{to.position, to.theta}, {}});
@@ -155,7 +155,7 @@ class Kind {
   /// Returns false if the stop is met first, or if `go_on` ends it.
   bool compute(const Problem& problem, const PlanOptions& options, const StopCondition& stop,
                Executor& executor, const std::function<bool()>& go_on) {
-    if (departures_.empty()) return true;
+    if (begins_.empty()) return true;
     const auto alone = make_problem(problem, options, stop);
     if (!alone) return false;
     auto answers = travel_times(*alone, options, questions_, stop, executor, go_on);
@@ -172,21 +172,22 @@ class Kind {
   using StartKey = std::tuple<double, double, double, bool, bool>;
   using GoalKey = std::tuple<double, double, std::optional<double>>;
 
-  std::size_t departure(const Departure& from) {
+  std::size_t begin_of(const WayBegin& from) {
     const Position& position = from.pose.position;
     const double heading = from.any_heading ? 0.0 : from.pose.theta;
     const StartKey key{position.x(), position.y(), heading, from.any_heading, from.is_start};
-    const auto [found, is_new] = known_departures_.emplace(key, departures_.size());
+    const auto [found, is_new] = known_begins_.emplace(key, begins_.size());
     if (!is_new) return found->second;
-    departures_.push_back(from);
+    begins_.push_back(from);
     questions_.any_heading.push_back(from.any_heading);
     return found->second;
   }
 
-  /// A robot for each departure. Robots at goals are not checked, and have no way where they do not fit.
+  /// A robot for each pose from which a way begins. Robots at goals are not checked, and have no way where
+  /// they do not fit.
   std::vector<Robot> robots(const Robot& like, bool checks_starts) const {
     std::vector<Robot> robots;
-    for (const Departure& from : departures_) {
+    for (const WayBegin& from : begins_) {
       Robot& robot = robots.emplace_back();
       set_load(robot, load_);
       robot.angular_speed = like.angular_speed;
@@ -199,7 +200,7 @@ class Kind {
     return robots;
   }
 
-  /// The robots of all departures, one at a time.
+  /// The robots of all these poses, one at a time.
   std::optional<Problem> make_problem(const Problem& problem, const PlanOptions& options,
                                       const StopCondition& stop) const {
     // The second time, for a robot that touches more where it is than any robot may at a goal.
@@ -221,8 +222,8 @@ class Kind {
 
   std::size_t like_;
   Load load_;
-  std::vector<Departure> departures_;
-  std::map<StartKey, std::size_t> known_departures_;
+  std::vector<WayBegin> begins_;
+  std::map<StartKey, std::size_t> known_begins_;
   std::map<GoalKey, std::size_t> columns_;
   TravelQuestions questions_;
   TravelAnswers answers_;
@@ -247,7 +248,7 @@ class Legs {
     return found->second;
   }
 
-  Leg ask(std::size_t kind, const Departure& from, const Goal& to) {
+  Leg ask(std::size_t kind, const WayBegin& from, const Goal& to) {
     const auto [column, row] = kinds_[kind].ask(from, to);
     return {kind, column, row};
   }
@@ -291,7 +292,7 @@ struct Rest {
 struct Traveller {
   std::size_t robot = 0;  // of the problem
   Load load;
-  Departure at;
+  WayBegin at;
 };
 
 /// The arrivals of all robots at the end of all tasks.

@@ -125,18 +125,18 @@ std::vector<Leg> legs_of(const MovingObstacle& obstacle) {
   return legs;
 }
 
-Departure departure_of(const Robot& robot, const RobotPlan* plan) {
-  Departure departure;
-  if (!robot.invalid) departure.committed_until = robot.committed_until();
-  if (plan == nullptr) return departure;
+Handover handover_of(const Robot& robot, const RobotPlan* plan) {
+  Handover handover;
+  if (!robot.invalid) handover.committed_until = robot.committed_until();
+  if (plan == nullptr) return handover;
   for (std::size_t k = robot.committed.size(); k < plan->actions.size(); ++k) {
     const Action& action = plan->actions[k];
     if (action.type != Action::Type::translate || action.from.position == action.to.position) continue;
-    departure.leaves = action.t_start;
-    departure.first_move_ends = action.t_end;
+    handover.leaves = action.t_start;
+    handover.first_move_ends = action.t_end;
     break;
   }
-  return departure;
+  return handover;
 }
 
 namespace {

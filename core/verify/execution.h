@@ -72,8 +72,8 @@ std::vector<Leg> execute(const Robot& robot, const RobotPlan* plan);
 /// appears for an instant only has a leg that takes no time.
 std::vector<Leg> legs_of(const MovingObstacle& obstacle);
 
-/// When the motion of a robot becomes the planner's own, seconds.
-struct Departure {
+/// When the motion of a robot passes from its commitment to the planner, seconds.
+struct Handover {
   double committed_until = 0.0;  // the end of its commitment
   /// The begin and the end of the first translation after the commitment; infinity if there is none.
   double leaves = std::numeric_limits<double>::infinity();
@@ -85,8 +85,9 @@ struct Departure {
   bool plans(double t_begin) const { return t_begin >= leaves; }
 };
 
-/// Returns when a robot departs. `plan` is null for a robot without a plan. Every number is finite.
-Departure departure_of(const Robot& robot, const RobotPlan* plan);
+/// Returns when the motion of a robot passes to the planner. `plan` is null for a robot without a plan. Every
+/// number is finite.
+Handover handover_of(const Robot& robot, const RobotPlan* plan);
 
 /// A disk of constant radius on its way.
 struct Body {
@@ -107,7 +108,7 @@ struct ExecutedFleet {
   std::vector<double> vicinities;   // metres, added to the radii against robots
   std::vector<double> tolerances;   // metres
   std::vector<std::vector<Leg>> legs;
-  std::vector<Departure> departures;
+  std::vector<Handover> handovers;
   std::vector<bool> invalid;  // see Robot::invalid
   std::vector<bool> stays;    // it has no plan or no goal: it stays where its commitment ends, for ever
 

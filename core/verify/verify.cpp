@@ -56,16 +56,16 @@ double least_of_commitments(const ExecutedFleet& fleet, const Overlap& overlap, 
         position_at(*first_leg_until(a, begin), begin) - position_at(*first_leg_until(b, begin), begin);
     return apart.norm();
   }
-  return least_distance(committed_legs(a, fleet.departures[overlap.first].committed_until),
-                        committed_legs(b, fleet.departures[overlap.second].committed_until), {0.0, until});
+  return least_distance(committed_legs(a, fleet.handovers[overlap.first].committed_until),
+                        committed_legs(b, fleet.handovers[overlap.second].committed_until), {0.0, until});
 }
 
 /// Returns the time, in seconds, from which two robots have to keep their whole distance, if they begin with
 /// this overlap and may leave it; none otherwise.
 std::optional<double> leaves_overlap(const ExecutedFleet& fleet, const Overlap& overlap,
                                      const CheckRules& rules) {
-  const Departure& a = fleet.departures[overlap.first];
-  const Departure& b = fleet.departures[overlap.second];
+  const Handover& a = fleet.handovers[overlap.first];
+  const Handover& b = fleet.handovers[overlap.second];
   const double bare = fleet.radii[overlap.first] + fleet.radii[overlap.second];
   const double kept = fleet.kept_distance(overlap.first, overlap.second, rules.inflation);
   if (kept <= bare && rules.start_overlap <= 0.0) return std::nullopt;
@@ -358,35 +358,35 @@ class FleetCheck {
     const Tolerance& tolerance = rules_.tolerances[index];
     const CarriedLoads loads(robot, plan, tolerance);
     if (plan != nullptr) check_plan(robot, *plan, loads, tolerance);
-    const Departure departure = departure_of(robot, plan);
+    const Handover handover = handover_of(robot, plan);
     std::vector<Leg> legs;
     std::vector<double> radii;  // by leg
     for (Body& body : bodies_of(loads, execute(robot, plan, loads))) {
       legs.insert(legs.end(), body.legs.begin(), body.legs.end());
       radii.resize(legs.size(), body.radius);
-      add_to_fleet(robot, plan, std::move(body), departure, index);
+      add_to_fleet(robot, plan, std::move(body), handover, index);
     }
     if (robot.invalid) return;  // it may stand in a wall
     const auto distance_from = [&](const Position& position, double reach) {
       return zones.distance_to_blocked(position, distance_from_walls(field, position, reach));
     };
     const std::vector<double> kept =
-        distances_to_keep(distance_from, radii, legs, departure, tolerance.metres, rules_);
+        distances_to_keep(distance_from, radii, legs, handover, tolerance.metres, rules_);
     violations_.add(check_obstacles(field, index, kept, legs, tolerance.metres, stop_));
     if (zones.empty()) return;
-    violations_.add(zones.check_blocked(kept, legs, departure, tolerance.metres, stop_));
+    violations_.add(zones.check_blocked(kept, legs, handover, tolerance.metres, stop_));
     violations_.add(
         zones.check_driving(plan != nullptr ? plan->actions : robot.committed, loads, tolerance, stop_));
   }
 
-  void add_to_fleet(const Robot& robot, const RobotPlan* plan, Body body, const Departure& departure,
+  void add_to_fleet(const Robot& robot, const RobotPlan* plan, Body body, const Handover& handover,
                     std::size_t index) {
     fleet_.robots.push_back(index);
     fleet_.radii.push_back(body.radius);
     fleet_.vicinities.push_back(robot.vicinity);
     fleet_.tolerances.push_back(rules_.tolerances[index].metres);
     fleet_.legs.push_back(std::move(body.legs));
-    fleet_.departures.push_back(departure);
+    fleet_.handovers.push_back(handover);
     fleet_.invalid.push_back(robot.invalid);
     fleet_.stays.push_back(plan == nullptr || !robot.goal);
   }

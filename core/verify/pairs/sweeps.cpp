@@ -52,7 +52,7 @@ Exemptions::Exemptions(const std::vector<UnavoidableCollision>& collisions, cons
       robots_(fleet.size()) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < fleet.size(); ++i) {
-    certain_.push_back({fleet.stays[i] ? kNever : fleet.departures[i].committed_until, kNever});
+    certain_.push_back({fleet.stays[i] ? kNever : fleet.handovers[i].committed_until, kNever});
   }
   std::vector<std::size_t> listed(fleet.size(), 0);
   for (const UnavoidableCollision& collision : collisions) {
@@ -291,9 +291,9 @@ constexpr std::size_t kComparisonsBetweenPolls = 64;
 
 enum class Phase { committed, staying, planned };
 
-Phase phase_of(const Leg& leg, const Departure& departure) {
-  if (departure.plans(leg.t_begin)) return Phase::planned;
-  return departure.commits(leg.t_end) ? Phase::committed : Phase::staying;
+Phase phase_of(const Leg& leg, const Handover& handover) {
+  if (handover.plans(leg.t_begin)) return Phase::planned;
+  return handover.commits(leg.t_end) ? Phase::committed : Phase::staying;
 }
 
 /// Returns a lower bound of the distance of two legs within these times, from their bounding boxes.
@@ -379,11 +379,11 @@ class MarginSweep {
     for (auto leg = first_leg_until(fleet_.legs[first], window.begin);
          leg != fleet_.legs[first].end() && leg->t_begin < window.end && !stopped_; ++leg) {
       const TimeSpan time{std::max(leg->t_begin, window.begin), std::min(leg->t_end, window.end)};
-      const Phase phase = phase_of(*leg, fleet_.departures[first]);
+      const Phase phase = phase_of(*leg, fleet_.handovers[first]);
       if (phase == Phase::staying || time.begin >= time.end) continue;
       for (auto other = first_leg_until(others, time.begin - margin_);
            other != others.end() && other->t_begin <= time.end + margin_ && !stopped_; ++other) {
-        const Phase its_phase = phase_of(*other, fleet_.departures[second]);
+        const Phase its_phase = phase_of(*other, fleet_.handovers[second]);
         if (its_phase == Phase::staying || (phase == Phase::committed && its_phase == Phase::committed))
           continue;
         const TimeSpan its_time{std::max(other->t_begin, time.begin - margin_),

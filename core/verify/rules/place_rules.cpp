@@ -53,7 +53,7 @@ double distance_from_walls(const ObstacleField& field, const Position& position,
 
 std::vector<double> distances_to_keep(const std::function<double(const Position&, double)>& distance_from,
                                       const std::vector<double>& radii, const std::vector<Leg>& legs,
-                                      const Departure& departure, double tolerance, const CheckRules& rules) {
+                                      const Handover& handover, double tolerance, const CheckRules& rules) {
   std::vector<double> kept = radii;
   if (rules.inflation <= 0.0 && rules.start_overlap <= 0.0) return kept;
   double reduced = kNone;  // the distance that it keeps until it has been clear
@@ -61,8 +61,8 @@ std::vector<double> distances_to_keep(const std::function<double(const Position&
   for (std::size_t k = 0; k < legs.size(); ++k) {
     const double radius = radii[k];
     const double inflated = radius + rules.inflation;
-    const double full = departure.commits(legs[k].t_end) ? radius : inflated;
-    const bool begins_to_plan = !planned && !departure.commits(legs[k].t_end);
+    const double full = handover.commits(legs[k].t_end) ? radius : inflated;
+    const bool begins_to_plan = !planned && !handover.commits(legs[k].t_end);
     planned = planned || begins_to_plan;
     if (k == 0 || begins_to_plan) {
       const double here = distance_from(legs[k].from, full);
@@ -194,7 +194,7 @@ std::optional<std::size_t> ZonesOfRobot::first_goal_put_off(
 
 /// By leg, whether the robot may be inside of zones that it may leave.
 std::vector<bool> ZonesOfRobot::may_be_inside(const std::vector<double>& radii, const std::vector<Leg>& legs,
-                                              const Departure& departure, double tolerance,
+                                              const Handover& handover, double tolerance,
                                               const StopCondition& stop) const {
   std::vector<bool> may_be(legs.size(), false);
   if (!may_leave_any_) return may_be;
@@ -203,7 +203,7 @@ std::vector<bool> ZonesOfRobot::may_be_inside(const std::vector<double>& radii, 
   };
   bool leaves = is_inside(legs.front().from, radii.front());
   for (std::size_t k = 0; k < legs.size() && !stop.met(); ++k) {
-    const bool commits = departure.commits(legs[k].t_end);
+    const bool commits = handover.commits(legs[k].t_end);
     may_be[k] = commits || leaves;
     if (commits) leaves = true;  // it may end inside
     if (leaves) leaves = is_inside(legs[k].to, radii[k]);
@@ -212,10 +212,10 @@ std::vector<bool> ZonesOfRobot::may_be_inside(const std::vector<double>& radii, 
 }
 
 ViolationList ZonesOfRobot::check_blocked(const std::vector<double>& radii, const std::vector<Leg>& legs,
-                                          const Departure& departure, double tolerance,
+                                          const Handover& handover, double tolerance,
                                           const StopCondition& stop) const {
   ViolationList violations;
-  const std::vector<bool> may_be_inside = this->may_be_inside(radii, legs, departure, tolerance, stop);
+  const std::vector<bool> may_be_inside = this->may_be_inside(radii, legs, handover, tolerance, stop);
   for (const auto& [index, zone, box] : zones_) {
     if (zone->type != Zone::Type::blocked) continue;
     std::optional<Violation> latest;  // the latest violation, which consecutive legs may continue

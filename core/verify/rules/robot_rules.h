@@ -71,7 +71,7 @@ double distance_from_walls(const ObstacleField& field, const Position& position,
 /// position from obstacles, at most `most`.
 std::vector<double> distances_to_keep(const std::function<double(const Position&, double)>& distance_from,
                                       const std::vector<double>& radii, const std::vector<Leg>& legs,
-                                      const Departure& departure, double tolerance, const CheckRules& rules);
+                                      const Handover& handover, double tolerance, const CheckRules& rules);
 
 /// Reports where a disk overlaps obstacles by more than the tolerance: one violation for each leg, or one for
 /// consecutive legs through which the overlap continues. `legs` are a result of `execute`; `radii` are those
@@ -105,7 +105,7 @@ class ZonesOfRobot {
   /// until it is clear of all of them at the end of a leg, and while it executes its commitment. Ends early
   /// when `stop` is met.
   ViolationList check_blocked(const std::vector<double>& radii, const std::vector<Leg>& legs,
-                              const Departure& departure, double tolerance, const StopCondition& stop) const;
+                              const Handover& handover, double tolerance, const StopCondition& stop) const;
 
   /// Reports the actions that are faster than a speed zone allows, and those against a one-way zone. Ends
   /// early when `stop` is met.
@@ -121,7 +121,7 @@ class ZonesOfRobot {
 
   double distance_to_leave(const Position& position, double reach) const;
   std::vector<bool> may_be_inside(const std::vector<double>& radii, const std::vector<Leg>& legs,
-                                  const Departure& departure, double tolerance,
+                                  const Handover& handover, double tolerance,
                                   const StopCondition& stop) const;
   std::optional<Violation> check_translation(const ZoneBox& in, const Action& action, std::size_t number,
                                              const Load& load, const Tolerance& tolerance,

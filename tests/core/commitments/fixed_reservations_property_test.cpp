@@ -80,14 +80,15 @@ class RandomFixed : public testing::TestWithParam<int> {
     FixedReservations::Robot random = idle(start, dice.between(0.1, 0.6));
     if (!is_committed) return random;
     random.committed = sized(timed_segments(random_trajectory(start, 0.0)), random.disk.radius);
-    random.t_departure = random.committed.back().t_start + dice.between(0.1, 3.0);
-    random.committed.back().t_end = random.t_departure;
-    random.departure = random.committed.back().path.to;
+    random.committed_until = random.committed.back().t_start + dice.between(0.1, 3.0);
+    random.committed.back().t_end = random.committed_until;
+    random.committed_end = random.committed.back().path.to;
     return random;
   }
 
   void reserve(std::size_t i, const FixedReservations::Robot& each, double reach) {
-    std::vector<TimedSegment> after{{{each.departure, each.departure}, each.t_departure, kForever}};
+    std::vector<TimedSegment> after{
+        {{each.committed_end, each.committed_end}, each.committed_until, kForever}};
     if (each.committed.empty()) after = timed_segments(random_trajectory(each.start, 0.0));
     table->reserve(i, sized(after, each.disk.radius));
     others.push_back({{each.committed.begin(), each.committed.end()}, reach, margin});

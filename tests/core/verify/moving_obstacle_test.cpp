@@ -143,7 +143,7 @@ TEST_P(RandomObstacles, AreMetWhereSamplesMeetThem) {
     executed.tolerances.push_back(0.0);
     const RobotPlan* executes = plan == fleet.plans.end() ? nullptr : &*plan;
     executed.legs.push_back(execute(fleet.robots[i], executes));
-    executed.departures.push_back(departure_of(fleet.robots[i], executes));
+    executed.handovers.push_back(handover_of(fleet.robots[i], executes));
     executed.stays.push_back(executes == nullptr);
   }
   std::vector<std::vector<Leg>> obstacles;
