@@ -91,7 +91,7 @@ GoalsLeft goals_left(const core::Robot& robot, const Execution& execution, doubl
   if (not_before > 0.0) due = std::max(due, not_before);
   left.age = std::clamp(at - due, 0.0, kLongestTime);
   core::Goal& last = left.goals.back();
-  const bool matters = last.has_load() || execution.stays_when_served;
+  const bool matters = last.changes_load() || execution.stays_when_served;
   const bool is_served = matters && execution.planned && has_served_last(robot, actions, progress);
   if (is_served) take_load(last, left.load);
   if (is_served && execution.stays_when_served) {

@@ -210,8 +210,8 @@ Passing estimated_passing(const MovingDisk& mine, const MovingDisk& other) {
 
 /// About the departure between one at which the disks collide and one at which they do not, from which on
 /// they do not: by Newton's method. None if that does not lead there.
-std::optional<double> estimated_end(double inside, double outside, double reach, MovingDisk mine,
-                                    const MovingDisk& other) {
+std::optional<double> estimated_end_of_collisions(double inside, double outside, double reach,
+                                                  MovingDisk mine, const MovingDisk& other) {
   constexpr int kMostSteps = 8;
   const double duration = mine.t_end - mine.t_start;
   const auto passing_at = [&](double t) {
@@ -279,7 +279,8 @@ UnsafeInterval forbidden_departures_with_ramps(MovingDisk mine, double duration,
   const double inside =
       b.t_start + length * elapsed_share(nearest.at.second, b.ramp) - my_time(nearest.at.first);
   const auto end_towards = [&](double outside) {
-    return end_of_collisions(inside, outside, estimated_end(inside, outside, reach, mine, b), collides);
+    return end_of_collisions(inside, outside, estimated_end_of_collisions(inside, outside, reach, mine, b),
+                             collides);
   };
   return {end_towards(b.t_start - duration), end_towards(b.t_end)};
 }

@@ -32,8 +32,9 @@ struct Goal {
   std::optional<double> linear_acceleration_after = {};
   std::optional<double> linear_deceleration_after = {};
 
-  /// Whether the robot is another one from the end of the service on.
-  bool has_load() const {
+  /// Whether the load of the robot changes at the end of the service, and with it its radius or how it
+  /// drives.
+  bool changes_load() const {
     return radius_after || linear_speed_after || linear_acceleration_after || linear_deceleration_after;
   }
 };

@@ -15,10 +15,10 @@ namespace fleetplan::core {
 
 /// The timed segments of robots, indexed in space and time.
 ///
-/// Robots are sorted into a few classes by the largest radius that they ever have. For each class there is a
-/// layer of buckets. A segment is entered into every bucket of a layer where it could touch a robot of that
-/// class, with the time window in which it could. A query therefore only visits the buckets on its own centre
-/// line, and there only the entries whose time window overlaps the query's.
+/// Robots are sorted into a few classes by the largest radius that they ever have. Each class has buckets of
+/// its own. A segment is entered into every bucket of a class where it could touch a robot of that class,
+/// with the time window in which it could. A query therefore only visits the buckets on its own centre line,
+/// and there only the entries whose time window overlaps the query's.
 class SegmentIndex {
  public:
   /// A robot on one of its segments.
@@ -50,7 +50,7 @@ class SegmentIndex {
   /// open time window. Stops when visit returns false; returns false then, and true otherwise.
   template <class Visit>
   bool visit(std::size_t robot, std::size_t bucket, double t_begin, double t_end, Visit&& visit) const {
-    return visit_bucket(layers_[layer_of_[robot]].buckets[bucket], t_begin, t_end, visit);
+    return visit_bucket(classes_[class_of_[robot]].buckets[bucket], t_begin, t_end, visit);
   }
 
  private:
@@ -68,13 +68,14 @@ class SegmentIndex {
     std::vector<DiskId> resting;  // without end
     double longest = 0.0;         // the longest duration of an entry that was ever in `passing`
   };
-  struct Layer {
+  /// The buckets for robots of about one size.
+  struct RadiusClass {
     double radius;  // of the largest robot in the class
     std::vector<Bucket> buckets;
   };
 
   DiskId store(std::size_t robot, const SizedSegment& segment, bool has_left);
-  void enter(Layer& layer, DiskId id);
+  void enter(RadiusClass& radius_class, DiskId id);
 
   template <class Visit>
   bool visit_bucket(const Bucket& bucket, double t_begin, double t_end, Visit& visit) const {
@@ -96,8 +97,8 @@ class SegmentIndex {
   std::vector<LargestDisk> disks_;  // by robot
   const Contacts* contacts_;
   BucketGrid grid_;
-  std::vector<Layer> layers_;
-  std::vector<std::size_t> layer_of_;  // by robot
+  std::vector<RadiusClass> classes_;
+  std::vector<std::size_t> class_of_;  // by robot
   IndexedVector<Occupant, DiskId> occupants_;
   std::vector<DiskId> vacant_;
   std::vector<std::vector<DiskId>> held_;  // by robot

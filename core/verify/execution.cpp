@@ -189,7 +189,7 @@ class Services {
   }
 
   void end_service(const Goal& goal, double t) {
-    if (goal.has_load()) steps_.push_back({t, load_after(steps_.back().load, goal)});
+    if (goal.changes_load()) steps_.push_back({t, load_after(steps_.back().load, goal)});
   }
 
   const Robot& robot_;

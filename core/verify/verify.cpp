@@ -281,15 +281,15 @@ class FleetCheck {
  public:
   FleetCheck(const CheckedFleet& fleet, const std::vector<RobotPlan>& plans, const CheckRules& rules,
              const StopCondition& stop)
-      : request_(fleet), rules_(rules), stop_(stop), plan_of_(plans_by_robot(fleet.robots.size(), plans)) {}
+      : checked_(fleet), rules_(rules), stop_(stop), plan_of_(plans_by_robot(fleet.robots.size(), plans)) {}
 
   std::optional<VerifyReport> run() {
-    const ObstacleField field(request_.grid);
-    for (std::size_t index = 0; index < request_.robots.size(); ++index) {
+    const ObstacleField field(checked_.grid);
+    for (std::size_t index = 0; index < checked_.robots.size(); ++index) {
       if (stop_.met()) return std::nullopt;
       check_alone(index, field);
     }
-    std::optional<PairReport> pairs = PairCheck(fleet_, request_.obstacles, rules_, stop_).run();
+    std::optional<PairReport> pairs = PairCheck(fleet_, checked_.obstacles, rules_, stop_).run();
     if (!pairs || stop_.met()) return std::nullopt;
     violations_.add(std::move(pairs->violations));
     const std::size_t count = violations_.total();
@@ -299,16 +299,16 @@ class FleetCheck {
  private:
   void check_alone(std::size_t index, const ObstacleField& field) {
     const RobotPlan* plan = plan_of_[index];
-    if (const auto unusable = find_unusable_number(index, request_.robots[index], plan)) {
+    if (const auto unusable = find_unusable_number(index, checked_.robots[index], plan)) {
       violations_.add(*unusable);
       return;
     }
     const Tolerance& tolerance = rules_.tolerances[index];
-    const ZonesOfRobot zones(request_.zones, index);
-    if (const auto less = without_goals_put_off(request_.robots[index], plan, zones, tolerance)) {
+    const ZonesOfRobot zones(checked_.zones, index);
+    if (const auto less = without_goals_put_off(checked_.robots[index], plan, zones, tolerance)) {
       check_alone(index, less->robot, plan != nullptr ? &less->plan : nullptr, field, zones);
     } else {
-      check_alone(index, request_.robots[index], plan, field, zones);
+      check_alone(index, checked_.robots[index], plan, field, zones);
     }
   }
 
@@ -412,7 +412,7 @@ class FleetCheck {
            plan.actions.back().t_end >= *rules_.horizon - tolerance.seconds;
   }
 
-  const CheckedFleet& request_;
+  const CheckedFleet& checked_;
   const CheckRules& rules_;
   const StopCondition& stop_;
   std::vector<const RobotPlan*> plan_of_;

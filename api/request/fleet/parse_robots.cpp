@@ -108,7 +108,7 @@ void add_goal(const JsonReader& member, const WorldFrame& frame, Quota& quota, P
                   poses.empty() ? std::string() : text_of_any_of(any_of)};
   const bool has_texts = !texts.empty();
   if (!pose || member.fault_count() != before) return;
-  if (service || not_before || goal.due || goal.has_load() || has_texts) read.lists_visits = true;
+  if (service || not_before || goal.due || goal.changes_load() || has_texts) read.lists_visits = true;
   if (has_texts) {
     read.texts.resize(read.goals.size());
     read.texts.push_back(std::move(texts));
