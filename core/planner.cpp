@@ -58,9 +58,6 @@ std::vector<std::size_t> robots_to_plan(const PlanState& state,
   return movers;
 }
 
-/// The most time for the check of previous plans, which is not part of the budget. It takes about 10 ms for
-/// 500 robots; the limit is for plans in which many robots meet in one small area, and for a busy machine.
-constexpr std::chrono::milliseconds kMostForPrevious{500};
 /// The most time for finding unavoidable collisions. Without them, no plan can be checked.
 constexpr std::chrono::milliseconds kMostForUnavoidable{150};
 

@@ -269,13 +269,10 @@ TurnNeed need_of(const PlanRequest& request, const core::StopCondition& stop, co
           .is_short = is_short};
 }
 
-/// The most time after the budget for the check of previous plans, which decides whether they are kept.
-constexpr std::chrono::milliseconds kMostForPrevious{500};
-
 /// Returns the end of planning, after which the answer is checked; later if there are previous plans.
 core::StopCondition end_of_planning(const core::StopCondition& stop, const PlanRequest& request) {
   if (!core::have_previous_plans(request.problem.robots())) return stop;
-  return stop.until(std::max(stop.deadline(), Clock::now()) + kMostForPrevious);
+  return stop.until(std::max(stop.deadline(), Clock::now()) + core::kMostForPrevious);
 }
 
 /// Returns the planner's plan, or one that needs no search if the memory does not suffice for any other.
@@ -284,8 +281,8 @@ core::Plan plan_or_none(const Planner& planner, const PlanRequest& request, cons
   try {
     return planner(request.problem, request.options, stop, observer);
   } catch (const std::bad_alloc&) {
-    const auto patience =
-        core::StopCondition::even_if_cancelled(std::max(stop.deadline(), Clock::now()) + kMostForPrevious);
+    const auto patience = core::StopCondition::even_if_cancelled(std::max(stop.deadline(), Clock::now()) +
+                                                                 core::kMostForPrevious);
     return core::plan_without_search(request.problem, request.options, core::kMemorySpent,
                                      patience.despite_memory());
   }
@@ -381,7 +378,7 @@ Reply planned(const Planner& planner, std::string_view body, const RequestContex
   if (!has_come) return too_busy(context.request_id);
   // Previous plans that hold are kept whatever the budget.
   if (stop.met() && !core::have_previous_plans(request->problem.robots())) {
-    const auto patience = core::StopCondition::even_if_cancelled(Clock::now() + kMostForPrevious);
+    const auto patience = core::StopCondition::even_if_cancelled(Clock::now() + core::kMostForPrevious);
     Reply reply =
         answer(core::plan_without_search(request->problem, request->options,
                                          "The time budget was spent before planning could begin.", patience),
