@@ -16,8 +16,8 @@
 
 namespace fleetplan::core {
 
-/// How one robot may drive in its zones of the types speed and one_way. The open inside of a zone counts, up
-/// to kSamePosition.
+/// How one robot may drive in its zones of the types speed (speed zones, or slow zones if they are slower
+/// than the robot) and one_way. The open inside of a zone counts, up to kSamePosition.
 class DriveZones {
  public:
   /// A part of a straight move, with one greatest speed. Without a profile, it is the speed.

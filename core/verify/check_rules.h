@@ -65,8 +65,6 @@ struct CheckRules {
   std::vector<UnavoidableCollision> exempt = {};
 };
 
-// Violations of the rules by a plan, and lists and texts of them.
-
 /// The maximum number of overlaps of robots in a report. Many robots in one place have millions of them.
 inline constexpr std::size_t kMostCollisions = 10'000;
 

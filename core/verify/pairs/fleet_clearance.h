@@ -54,8 +54,6 @@ class MovingBoxes {
   std::vector<std::size_t> current_;  // by body, the first leg that does not end before the window
 };
 
-// The smallest gap between robots over all time, and where they overlap.
-
 /// An uninterrupted overlap of two disks by more than the tolerance, from t_begin to t_end.
 struct Overlap {
   std::size_t first = 0;  // positions in lists of disks
