@@ -49,7 +49,7 @@ constexpr double kBoundsShare = 0.2;
 /// The robots that triage leaves to be planned.
 std::vector<std::size_t> robots_to_plan(const PlanState& state,
                                         const std::vector<std::optional<Unplanned>>& unplanned) {
-  const std::vector<double>& stays_until = state.reservations().at_start_until;
+  const std::vector<double>& stays_until = state.reservations().holds_place_for;
   std::vector<std::size_t> movers;
   for (std::size_t i = 0; i < state.instance().size(); ++i) {
     const Robot& robot = state.instance().robot(i);

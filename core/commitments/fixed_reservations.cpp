@@ -96,7 +96,7 @@ FixedReservations::FixedReservations(double width, double height, std::vector<Ro
   owners_ = {};
 }
 
-bool FixedReservations::departs(std::size_t robot, const Position& from) const {
+bool FixedReservations::begins_at_commitment_end(std::size_t robot, const Position& from) const {
   return is_same_position(robots_[robot].committed_end, from);
 }
 

@@ -54,7 +54,7 @@ class FixedReservations {
   bool has_ramps() const { return has_ramps_; }
   const Robot& robot(std::size_t index) const { return robots_[index]; }
   /// Whether the robot stands at the place where its committed motion ends, or moves from there.
-  bool departs(std::size_t robot, const Position& from) const;
+  bool begins_at_commitment_end(std::size_t robot, const Position& from) const;
 
   /// Calls visit(occupant) for every part of an obstacle or of another robot's committed motion that could
   /// touch this robot's disk of the given radius (metres) at times that differ by at most `margin` seconds. A

@@ -23,7 +23,7 @@ Workspace::Workspace(const Instance& instance, const Incumbent& incumbent, const
   std::vector<bool> stays(own_instance_->size(), true);
   for (const std::size_t robot : incumbent.followers()) stays[robot] = false;
   for (std::size_t robot = 0; robot < stays.size(); ++robot) {
-    if (stays[robot]) state_->stay_at_start(robot);
+    if (stays[robot]) state_->stay_in_place(robot);
   }
 }
 

@@ -110,7 +110,7 @@ namespace {
 constexpr std::int64_t kStepsOfStuck = 50'000;
 
 std::vector<std::size_t> robots_that_stay(const PlanState& state) {
-  const std::vector<double>& until = state.reservations().at_start_until;
+  const std::vector<double>& until = state.reservations().holds_place_for;
   std::vector<std::size_t> staying;
   for (std::size_t robot = 0; robot < until.size(); ++robot) {
     if (until[robot] == kForever) staying.push_back(robot);

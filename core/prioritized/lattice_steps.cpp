@@ -84,7 +84,7 @@ class StepGraph {
     for (const std::size_t robot : robots_) moves[robot] = true;
     // Bounded: the robots, each with the few vertices around it.
     for (std::size_t i = 0; i < instance_.size(); ++i) {
-      if (moves[i] || state_.reservations().at_start_until[i] != kForever) continue;
+      if (moves[i] || state_.reservations().holds_place_for[i] != kForever) continue;
       const Position& position = instance_.itinerary(i).pose.position;
       widest_ = std::max(widest_, instance_.largest_disk(i).pair_radius);
       const int vertex = lattice.vertex_at(position);

@@ -146,7 +146,7 @@ struct Attempt {
 Attempt try_order(PlanState& state, const PriorityOrder& order, double start_delay, const StopCondition& stop,
                   ProgressReport& progress) {
   const double reserved = state.instance().options().start_safe_interval;
-  for (const std::size_t robot : order) state.reserve_start(robot, reserved);
+  for (const std::size_t robot : order) state.reserve_place(robot, reserved);
   progress.next_attempt();
   Attempt attempt{order, {}, std::nullopt};
   for (const std::size_t robot : order) {
@@ -221,7 +221,7 @@ class Restarts {
   void give_up(std::size_t robot) {
     result_.given_up.push_back(robot);
     orders_.drop(robot);
-    state_.stay_at_start(robot);
+    state_.stay_in_place(robot);
     best_ = {orders_.current(), {}, std::nullopt};
   }
 

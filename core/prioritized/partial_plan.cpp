@@ -60,13 +60,13 @@ class SafePlanner {
  private:
   void stay(std::size_t robot) {
     earlier_[robot] = state_.trajectory(robot);
-    state_.stay_at_start(robot);
+    state_.stay_in_place(robot);
     staying_.push_back(robot);
   }
 
   void stop_conflicting_robots() {
     for (std::size_t k = 0; k < staying_.size(); ++k) {  // staying_ grows
-      for (const std::size_t crossing : state_.robots_crossing_start(staying_[k])) {
+      for (const std::size_t crossing : state_.robots_crossing_place(staying_[k])) {
         if (state_.trajectory(crossing)) stay(crossing);
         if (earlier_[crossing]) waiting_for_[staying_[k]].push_back(crossing);
       }
@@ -109,7 +109,7 @@ class SafePlanner {
           state_.follow(other, *earlier_[other]);
           left.push_back(other);
         } else {
-          state_.stay_at_start(other);
+          state_.stay_in_place(other);
         }
       }
     }
@@ -128,7 +128,7 @@ class SafePlanner {
       state_.follow(robot, std::move(*result.trajectory));
       return true;
     }
-    state_.stay_at_start(robot);
+    state_.stay_in_place(robot);
     has_no_path_[robot] = result.complete;
     result_.cut_off = result_.cut_off || (!result.complete && stop_.met());
     return false;
@@ -167,7 +167,7 @@ SafePlan make_safe(PlanState& state, const std::vector<std::size_t>& unsolved,
 bool return_to(PlanState& state, const KeptPlan& kept, const StopCondition& stop) {
   const bool is_over = stop.is_over();
   if (is_over) {
-    state.finish_with(kept.reservations);
+    state.set_without_table(kept.reservations);
   } else {
     state.restore(kept.reservations);
   }
@@ -197,7 +197,7 @@ std::vector<std::size_t> BlockingRobots::find(std::size_t robot) {
   if (followed) {
     state_.follow(robot, *followed);
   } else {
-    state_.stay_at_start(robot);
+    state_.stay_in_place(robot);
   }
   return blocking;
 }

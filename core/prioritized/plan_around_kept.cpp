@@ -60,7 +60,7 @@ class PlanningAroundKept {
       }
       best_.plan.staying.push_back({robot, false});
       best_.reservations.trajectories[robot].reset();
-      best_.reservations.at_start_until[robot] = kForever;
+      best_.reservations.holds_place_for[robot] = kForever;
     }
   }
 
@@ -75,7 +75,7 @@ class PlanningAroundKept {
     for (const std::size_t robot : staying) stays[robot] = true;
     // Bounded: each robot begins to stay once.
     for (std::size_t k = 0; k < staying.size(); ++k) {  // staying grows
-      for (const std::size_t crossing : state_.robots_crossing_start(staying[k])) {
+      for (const std::size_t crossing : state_.robots_crossing_place(staying[k])) {
         if (stays[crossing] || !state_.trajectory(crossing)) continue;
         stays[crossing] = true;
         staying.push_back(crossing);

@@ -110,7 +110,7 @@ void PlanState::remove(std::size_t robot) {
     --staying_count_;
     forget_ways_closed_by_robots(robot);
   }
-  reservations_.at_start_until[robot] = 0.0;
+  reservations_.holds_place_for[robot] = 0.0;
 }
 
 void PlanState::forget_ways_closed_by_robots(std::size_t except) {
@@ -127,9 +127,9 @@ void PlanState::follow(std::size_t robot, Trajectory trajectory) {
   ++planned_count_;
 }
 
-void PlanState::stay_at_start(std::size_t robot) { reserve_start(robot, kForever); }
+void PlanState::stay_in_place(std::size_t robot) { reserve_place(robot, kForever); }
 
-void PlanState::reserve_start(std::size_t robot, double seconds) {
+void PlanState::reserve_place(std::size_t robot, double seconds) {
   const Itinerary& itinerary = instance_.itinerary(robot);
   const Position& place = itinerary.pose.position;
   remove(robot);
@@ -137,7 +137,7 @@ void PlanState::reserve_start(std::size_t robot, double seconds) {
     const TimedSegment rest{{place, place}, itinerary.t_begin, itinerary.t_begin + seconds};
     table_.reserve(robot, {{rest, instance_.radius(robot, 0)}});
   }
-  reservations_.at_start_until[robot] = seconds;
+  reservations_.holds_place_for[robot] = seconds;
   if (seconds == kForever) ++staying_count_;
 }
 
@@ -146,7 +146,7 @@ bool PlanState::is_reserved(std::size_t robot, const Reservations& among) const 
   const auto& now = trajectory(robot);
   const auto& other = among.trajectories[robot];
   if (now.has_value() != other.has_value()) return false;
-  if (!now) return reservations_.at_start_until[robot] == among.at_start_until[robot];
+  if (!now) return reservations_.holds_place_for[robot] == among.holds_place_for[robot];
   const auto same_visit = [](const Visit& a, const Visit& b) {
     return a.goal == b.goal && a.t_arrive == b.t_arrive && a.t_leave == b.t_leave;
   };
@@ -167,13 +167,13 @@ void PlanState::restore(const Reservations& reservations) {
     if (wanted.trajectories[robot]) {
       follow(robot, *wanted.trajectories[robot]);
     } else {
-      reserve_start(robot, wanted.at_start_until[robot]);
+      reserve_place(robot, wanted.holds_place_for[robot]);
     }
   }
   is_in_table_ = true;
 }
 
-void PlanState::finish_with(const Reservations& reservations) {
+void PlanState::set_without_table(const Reservations& reservations) {
   reservations_ = reservations;
   is_in_table_ = false;
   planned_count_ = 0;
@@ -245,8 +245,8 @@ SearchResult PlanState::search(std::size_t robot, const SearchLimits& limits, co
 SearchResult PlanState::search_whole_way(std::size_t robot, const SearchLimits& limits,
                                          const StopCondition& stop) {
   const std::vector<std::size_t> arrived = arrived_without_plan(robot);
-  const std::vector<double> reserved = reservations_.at_start_until;
-  for (const std::size_t other : arrived) stay_at_start(other);
+  const std::vector<double> reserved = reservations_.holds_place_for;
+  for (const std::size_t other : arrived) stay_in_place(other);
   EnclosureTest test(*this, robot);
   SearchLimits with_test = limits;
   with_test.no_path_test = &test;
@@ -256,7 +256,7 @@ SearchResult PlanState::search_whole_way(std::size_t robot, const SearchLimits& 
     with_test.bound = limits.bound;
     result = search_until(kForever, robot, with_test, stop);
   }
-  for (const std::size_t other : arrived) reserve_start(other, reserved[other]);
+  for (const std::size_t other : arrived) reserve_place(other, reserved[other]);
   if (std::erase(closed_by_robots_, robot) > 0) ways_[robot] = {};  // by robots that may make way
   return result;
 }
@@ -372,7 +372,7 @@ SearchResult PlanState::plan_ignoring(const std::vector<std::size_t>& ignored, s
   return result;
 }
 
-bool PlanState::can_leave_start(std::size_t robot, const StopCondition& stop) {
+bool PlanState::can_leave_place(std::size_t robot, const StopCondition& stop) {
   return within_memory(true, [&] {
     SearchSpace* space = search_spaces_.of(robot, stop);
     if (space == nullptr) return true;
@@ -493,7 +493,7 @@ std::vector<std::size_t> PlanState::robots_committed_against(std::size_t robot,
   return table_.robots_certainly_hit(robot, after_commitment(robot, trajectory));
 }
 
-std::vector<std::size_t> PlanState::robots_crossing_start(std::size_t robot) const {
+std::vector<std::size_t> PlanState::robots_crossing_place(std::size_t robot) const {
   return conflicting_robots(robot, staying(robot));
 }
 

@@ -45,24 +45,24 @@ class PlanState {
 
   /// Each of these replaces the robot's reservation. A trajectory begins with the committed motion.
   void follow(std::size_t robot, Trajectory trajectory);
-  void stay_at_start(std::size_t robot);
+  void stay_in_place(std::size_t robot);
   /// For so many seconds from the end of the committed motion on.
-  void reserve_start(std::size_t robot, double seconds);
+  void reserve_place(std::size_t robot, double seconds);
   void remove(std::size_t robot);
 
   /// The reservations of all robots.
   struct Reservations {
     std::vector<std::optional<Trajectory>> trajectories;
     /// Seconds from the end of the committed motion on; kForever for a robot that stays there.
-    std::vector<double> at_start_until;
+    std::vector<double> holds_place_for;
   };
   const Reservations& reservations() const { return reservations_; }
   /// Replaces all reservations.
   void restore(const Reservations& reservations);
   /// Replaces them, but not in the table of the searches, which takes no time. Only resume() or restore() may
   /// follow.
-  void finish_with(const Reservations& reservations);
-  /// Makes searches possible again after finish_with().
+  void set_without_table(const Reservations& reservations);
+  /// Makes searches possible again after set_without_table().
   void resume();
 
   /// None for a robot that does not follow a trajectory.
@@ -99,7 +99,7 @@ class PlanState {
   bool makes_way(std::size_t robot) const;
 
   /// Whether obstacles allow the robot a move from its start; true if `stop` is met first.
-  bool can_leave_start(std::size_t robot, const StopCondition& stop);
+  bool can_leave_place(std::size_t robot, const StopCondition& stop);
   /// Whether the robot has a way to its goal past obstacles and the robots that stay; unknown if `stop` is
   /// met first, or if that takes more than `max_expansions` expansions of a search on the map.
   const Way& way_to_goal(std::size_t robot, std::int64_t max_expansions, const StopCondition& stop);
@@ -121,7 +121,7 @@ class PlanState {
   std::vector<std::size_t> robots_committed_against(std::size_t robot, const Trajectory& trajectory) const;
   /// The robots whose reservations conflict with the robot's staying, ascending; committed motion is left
   /// out.
-  std::vector<std::size_t> robots_crossing_start(std::size_t robot) const;
+  std::vector<std::size_t> robots_crossing_place(std::size_t robot) const;
 
   /// Gives up what searches keep for later, if memory is short.
   void relieve_memory();
@@ -145,7 +145,7 @@ class PlanState {
   std::int64_t find_leg(std::size_t robot, SearchSpace& space, std::size_t goal, std::int64_t max_expansions,
                         const StopCondition& stop);
   bool is_reserved(std::size_t robot, const Reservations& among) const;
-  bool stays(std::size_t robot) const { return reservations_.at_start_until[robot] == kForever; }
+  bool stays(std::size_t robot) const { return reservations_.holds_place_for[robot] == kForever; }
   void forget_ways_closed_by_robots(std::size_t except);
   std::vector<std::size_t> arrived_without_plan(std::size_t except) const;
   bool goal_stays_free(std::size_t robot) const;

@@ -26,7 +26,7 @@ OrderingResult plan_each_once(PlanState& state, const PriorityOrder& order, cons
   progress.next_attempt();
   const double reserved = state.instance().options().start_safe_interval;
   OrderingResult result;
-  for (const std::size_t robot : order) state.reserve_start(robot, reserved);
+  for (const std::size_t robot : order) state.reserve_place(robot, reserved);
   for (const std::size_t robot : order) {
     SearchResult search;
     state.remove(robot);
@@ -35,7 +35,7 @@ OrderingResult plan_each_once(PlanState& state, const PriorityOrder& order, cons
       state.follow(robot, std::move(*search.trajectory));
       progress.update();
     } else {
-      state.reserve_start(robot, reserved);
+      state.reserve_place(robot, reserved);
       result.unsolved.push_back(robot);
     }
   }
@@ -159,7 +159,7 @@ class PrioritizedPlanning {
       if (best_->plan.staying.size() <= hopeless.size()) return;
       if (time_.all.met()) break;
       for (const std::size_t robot : order) state_.remove(robot);
-      for (const std::size_t robot : hopeless) state_.stay_at_start(robot);
+      for (const std::size_t robot : hopeless) state_.stay_in_place(robot);
       random_.shuffle(order);
       OrderingResult ordering = repair_once(state_, order, random_, time_.all, progress_);
       result_.attempts += ordering.attempts;

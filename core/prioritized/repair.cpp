@@ -168,7 +168,7 @@ class Repair {
   }
 
   void postpone(std::size_t robot) {
-    state_.reserve_start(robot, state_.instance().options().start_safe_interval);
+    state_.reserve_place(robot, state_.instance().options().start_safe_interval);
     pending_.insert({rank_[robot], robot});
   }
 
@@ -364,8 +364,8 @@ class Repair {
   }
 
   void give_up(std::size_t robot) {
-    state_.stay_at_start(robot);
-    for (const std::size_t other : state_.robots_crossing_start(robot)) {
+    state_.stay_in_place(robot);
+    for (const std::size_t other : state_.robots_crossing_place(robot)) {
       if (state_.trajectory(other)) postpone(other);
     }
     if (state_.instance().robot(robot).is_idle()) return;  // it need not move

@@ -139,7 +139,7 @@ class Triage {
     }
   }
   bool may_leave(std::size_t robot) {
-    const bool is_free = instance_.fits_at_start(robot) || state_.can_leave_start(robot, stop_);
+    const bool is_free = instance_.fits_at_start(robot) || state_.can_leave_place(robot, stop_);
     return is_free && !instance_.contacts().too_many(robot);
   }
   bool is_kept(std::size_t robot) const { return !kept_.empty() && kept_[robot]; }
@@ -147,7 +147,7 @@ class Triage {
   const Position& place(std::size_t robot) const { return instance_.itinerary(robot).pose.position; }
   void stay(std::size_t robot) {
     stays_[robot] = true;
-    state_.stay_at_start(robot);
+    state_.stay_in_place(robot);
   }
   void give_up(std::size_t robot, Reason reason, const char* detail,
                std::vector<std::size_t> blocked_by = {}) {
@@ -166,7 +166,7 @@ class Triage {
   }
 
   void check_start(std::size_t i) {
-    if (!instance_.fits_at_start(i) && !state_.can_leave_start(i, stop_)) {
+    if (!instance_.fits_at_start(i) && !state_.can_leave_place(i, stop_)) {
       return give_up(
           i, Reason::start_blocked,
           "The inflated robot does not fit between the obstacles at its start, and no straight move "
@@ -336,7 +336,7 @@ class ZonesInTheWay {
     if (alone == nullptr) return true;
     const Instance instance(*alone, options_, stop_);
     PlanState state(instance);
-    if (!instance.fits_at_start(0) && !state.can_leave_start(0, stop_)) return false;
+    if (!instance.fits_at_start(0) && !state.can_leave_place(0, stop_)) return false;
     return instance.fits_at_goal(0) && !state.way_to_goal(0, kMostWayExpansions, stop_).none();
   }
 

@@ -236,7 +236,7 @@ void finish_with_kept_plans(PlanState& state, const std::vector<std::size_t>& mo
   for (const std::size_t robot : movers) {
     reservations.trajectories[robot] = previous_trajectory(state.instance().robot(robot));
   }
-  state.finish_with(reservations);
+  state.set_without_table(reservations);
 }
 
 namespace {

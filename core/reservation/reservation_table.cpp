@@ -45,11 +45,11 @@ class CollisionDistance {
 /// The interval margin of a robot that stands somewhere. What has passed before the robot's commitment ended
 /// there needs none.
 struct MarginAtRest {
-  double margin;     // seconds
-  double departure;  // seconds; the end of the commitment, if the robot stands there
+  double margin;          // seconds
+  double commitment_end;  // seconds, if the robot stands there
 
   UnsafeInterval widened(const UnsafeInterval& hit) const {
-    if (margin == 0.0 || hit.end <= departure + kSameTime) return hit;
+    if (margin == 0.0 || hit.end <= commitment_end + kSameTime) return hit;
     return {hit.begin - margin, hit.end + margin};
   }
 };
@@ -76,9 +76,9 @@ std::vector<std::size_t> ascending(std::vector<std::size_t> all) {
 }  // namespace
 
 /// A straight move whose departure is delayed past others.
-class ReservationTable::Departure {
+class ReservationTable::DelayedMove {
  public:
-  Departure(const Segment& path, double duration, double t_min, double t_max, double ramp)
+  DelayedMove(const Segment& path, double duration, double t_min, double t_max, double ramp)
       : duration_(duration), t_max_(t_max) {
     mine_.from = path.from;
     mine_.velocity = (path.to - path.from) / duration;
@@ -87,7 +87,7 @@ class ReservationTable::Departure {
     mine_.ramp = ramp;
   }
 
-  const MovingDisk& move() const { return mine_; }
+  const MovingDisk& disk() const { return mine_; }
   bool is_never() const { return never_; }
   /// Whether it has been delayed since the last round began.
   bool is_delayed() const { return delayed_; }
@@ -141,8 +141,9 @@ class ReservationTable::FixedDistance {
         robot_(mine.robot),
         radius_(mine.radius),
         pair_radius_(table.index_->disk(robot_).pair_radius_with(radius_)),
-        departs_(fixed_.departs(robot_, path.from)),
-        stays_(departs_ && path.from == path.to && radius_ == fixed_.robot(robot_).radius_at_committed_end) {
+        begins_at_commitment_end_(fixed_.begins_at_commitment_end(robot_, path.from)),
+        stays_(begins_at_commitment_end_ && path.from == path.to &&
+               radius_ == fixed_.robot(robot_).radius_at_committed_end) {
     if (contacts_ != nullptr) endpoint_ = contacts_->endpoint(robot_, path, radius_, mine.has_left);
   }
 
@@ -150,7 +151,7 @@ class ReservationTable::FixedDistance {
   /// need not leave because committed motion passes within the inflated distance only.
   double operator()(const FixedReservations::Occupant& other) const {
     if (other.is_obstacle) {
-      const double slack = departs_ ? kContactTolerance : kSearchSlack;
+      const double slack = begins_at_commitment_end_ ? kContactTolerance : kSearchSlack;
       return radius_ + other.radius - slack;
     }
     double distance = pair_radius_ + other.pair_radius - kSearchSlack;
@@ -172,7 +173,7 @@ class ReservationTable::FixedDistance {
   std::size_t robot_;
   double radius_;
   double pair_radius_;
-  bool departs_;
+  bool begins_at_commitment_end_;
   bool stays_;
   Endpoint endpoint_ = Endpoint::none;
 };
@@ -192,12 +193,12 @@ bool ReservationTable::is_costly() const {
   return fixed_ != nullptr && (fixed_->count() > kManyFixed || fixed_->has_ramps());
 }
 
-double ReservationTable::departure(std::size_t robot) const {
+double ReservationTable::commitment_end(std::size_t robot) const {
   return fixed_ != nullptr ? fixed_->robot(robot).committed_until : 0.0;
 }
 
-bool ReservationTable::departs(std::size_t robot, const Position& from) const {
-  return fixed_ != nullptr && fixed_->departs(robot, from);
+bool ReservationTable::begins_at_commitment_end(std::size_t robot, const Position& from) const {
+  return fixed_ != nullptr && fixed_->begins_at_commitment_end(robot, from);
 }
 
 void ReservationTable::reserve(std::size_t robot, const std::vector<SizedSegment>& segments) {
@@ -212,7 +213,7 @@ std::vector<SafeInterval> ReservationTable::safe_intervals(const Footprint& foot
                                                            const Position& position, double t_from) const {
   const std::size_t robot = footprint.robot;
   std::vector<UnsafeInterval> unsafe;
-  const MarginAtRest margin{margin_, departs(robot, position) ? departure(robot) : 0.0};
+  const MarginAtRest margin{margin_, begins_at_commitment_end(robot, position) ? commitment_end(robot) : 0.0};
   const Segment here{position, position};
   const CollisionDistance collision_distance(*index_, footprint, here);
   index_->visit(robot, index_->grid().at(position), t_from - margin_ - kSameTime, kForever,
@@ -249,15 +250,15 @@ std::optional<double> ReservationTable::earliest_departure(const Footprint& foot
   const SegmentIndex& index = *index_;
   const std::size_t robot = footprint.robot;
   const CollisionDistance collision_distance(index, footprint, path);
-  Departure departure(path, duration, t_min, t_max, ramp);
-  const MovingDisk& mine = departure.move();
+  DelayedMove move(path, duration, t_min, t_max, ramp);
+  const MovingDisk& mine = move.disk();
   const auto visit = [&](const Occupant& other) {
-    return departure.delay_past(other.disk, collision_distance(other), margin_);
+    return move.delay_past(other.disk, collision_distance(other), margin_);
   };
   const bool has_ramp = ramp != 0.0;
   // Bounded: each round is later than a reservation that the one before met.
-  while (departure.is_delayed()) {
-    departure.begin_round();
+  while (move.is_delayed()) {
+    move.begin_round();
     index.grid().walk(path.from, path.to, [&](std::size_t bucket, double enter, double exit) {
       if (has_ramp) [[unlikely]] {
         enter = elapsed_share(enter, ramp);
@@ -265,27 +266,27 @@ std::optional<double> ReservationTable::earliest_departure(const Footprint& foot
       }
       while (!index.visit(robot, bucket, mine.t_start + enter * duration - margin_,
                           mine.t_start + exit * duration + margin_, visit)) {
-        if (departure.is_never()) return false;
+        if (move.is_never()) return false;
       }
       return true;
     });
-    if (departure.is_never()) return std::nullopt;
-    if (fixed_ != nullptr && !delay_past_fixed(footprint, path, departure)) return std::nullopt;
+    if (move.is_never()) return std::nullopt;
+    if (fixed_ != nullptr && !delay_past_fixed(footprint, path, move)) return std::nullopt;
   }
   return mine.t_start;
 }
 
 /// Returns false if the move is never possible.
 bool ReservationTable::delay_past_fixed(const Footprint& footprint, const Segment& path,
-                                        Departure& departure) const {
+                                        DelayedMove& move) const {
   if (!fixed_->known()) return false;
   const std::size_t robot = footprint.robot;
   const FixedDistance fixed_distance(*this, footprint, path);
   const auto visit = [&](const FixedReservations::Occupant& other) {
-    return departure.delay_past(other.disk, fixed_distance(other), other.is_obstacle ? 0.0 : margin_);
+    return move.delay_past(other.disk, fixed_distance(other), other.is_obstacle ? 0.0 : margin_);
   };
-  while (!fixed_->visit(robot, departure.move(), index_->disk(robot).pair_radius, margin_, visit)) {
-    if (departure.is_never()) return false;
+  while (!fixed_->visit(robot, move.disk(), index_->disk(robot).pair_radius, margin_, visit)) {
+    if (move.is_never()) return false;
   }
   return true;
 }
@@ -340,7 +341,7 @@ std::vector<std::size_t> ReservationTable::robots_certainly_hit(
 
 /// A robot that has not yet left the place where its commitment ends needs no margin.
 double ReservationTable::margin_of(std::size_t robot, const TimedSegment& segment) const {
-  const bool stays = segment.path.from == segment.path.to && segment.t_start <= departure(robot);
+  const bool stays = segment.path.from == segment.path.to && segment.t_start <= commitment_end(robot);
   return stays ? 0.0 : margin_;
 }
 

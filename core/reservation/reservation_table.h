@@ -65,13 +65,13 @@ class ReservationTable {
   std::vector<std::size_t> obstacles_hit(std::size_t robot, const std::vector<SizedSegment>& segments) const;
 
  private:
-  class Departure;
+  class DelayedMove;
   class FixedDistance;
 
-  bool delay_past_fixed(const Footprint& footprint, const Segment& path, Departure& departure) const;
+  bool delay_past_fixed(const Footprint& footprint, const Segment& path, DelayedMove& move) const;
   double margin_of(std::size_t robot, const TimedSegment& segment) const;
-  bool departs(std::size_t robot, const Position& from) const;
-  double departure(std::size_t robot) const;
+  bool begins_at_commitment_end(std::size_t robot, const Position& from) const;
+  double commitment_end(std::size_t robot) const;
 
   std::unique_ptr<SegmentIndex> index_;
   const FixedReservations* fixed_ = nullptr;  // null: none

@@ -25,7 +25,7 @@ struct Hall : Planning {
     state.follow(1, through({{4.5, 2.5}}));
     state.follow(2, through({{8.5, 0.5}, {10.5, 2.5}}));
     state.follow(3, through({{18.5, 20.5}, {20.5, 20.5}}));
-    state.stay_at_start(4);
+    state.stay_in_place(4);
   }
 
   std::vector<std::size_t> select(std::size_t first, Neighbourhood kind, std::size_t size) {

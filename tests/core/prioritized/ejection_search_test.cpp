@@ -69,7 +69,7 @@ TEST(EjectionSearch, EjectsARobotLastForWhichOthersWereEjected) {
 
 TEST(EjectionSearch, FindsNothingWhereRobotsThatStayBlockTheOnlyWay) {
   Planning p = two_gates();
-  for (const std::size_t robot : {1u, 2u}) p.state.stay_at_start(robot);
+  for (const std::size_t robot : {1u, 2u}) p.state.stay_in_place(robot);
   EjectionSearch ejection(p.state, p.random, p.never);
   const SearchResult result = ejection.plan(0, {}, {1, 0, 0});
   EXPECT_FALSE(result.trajectory);

@@ -60,12 +60,12 @@ TEST(LatticeSteps, RefusesFleetsBesideCommittedMotion) {
 
 TEST(LatticeSteps, FollowingThemChangesNothingWhenStopped) {
   Planning p(hall(), {robot_at(0.5, 0.5).to(5.5, 0.5), robot_at(5.5, 0.5).to(0.5, 0.5)});
-  p.state.reserve_start(0, 3.0);
-  p.state.stay_at_start(1);
+  p.state.reserve_place(0, 3.0);
+  p.state.stay_in_place(1);
   EXPECT_FALSE(follow_steps(p.state, {0, 1}, {}, p.random, met(), p.progress));
   EXPECT_FALSE(p.state.trajectory(0));
-  EXPECT_EQ(p.state.reservations().at_start_until[0], 3.0);
-  EXPECT_EQ(p.state.reservations().at_start_until[1], kForever);
+  EXPECT_EQ(p.state.reservations().holds_place_for[0], 3.0);
+  EXPECT_EQ(p.state.reservations().holds_place_for[1], kForever);
 }
 
 TEST(LatticeSteps, RefusesFleetsAmongMovingObstacles) {
@@ -79,8 +79,8 @@ TEST(LatticeSteps, RefusesFleetsAmongMovingObstacles) {
 
 TEST(LatticeSteps, GoRoundRobotsThatStay) {
   Planning p(hall(), {robot_at(0.5, 1.5).to(5.5, 1.5), robot_at(2.5, 1.5), robot_at(3.6, 0.4)});
-  p.state.stay_at_start(1);
-  p.state.stay_at_start(2);
+  p.state.stay_in_place(1);
+  p.state.stay_in_place(2);
   ASSERT_TRUE(follow_steps(p.state, {0}, {}, p.random, p.never, p.progress));
   support::expect_safe(p.state);
 }
@@ -142,7 +142,7 @@ TEST(LatticeSteps, RandomFleetsNeverMeet) {
     Planning p = random_fleet(seed);
     const std::vector<std::size_t> robots = p.movers();
     for (std::size_t i = 0; i < p.instance.size(); ++i) {
-      if (!p.instance.robot(i).goal) p.state.stay_at_start(i);
+      if (!p.instance.robot(i).goal) p.state.stay_in_place(i);
     }
     auto trajectories = plan_in_steps(p.state, robots, p.random, p.never);
     if (!trajectories) continue;  // walls may part them

@@ -46,7 +46,7 @@ TEST(PartialPlan, PlansRobotsWithoutATrajectory) {
 
 TEST(PartialPlan, ReportsTheRobotsThatBlockAnUnplannedRobot) {
   Planning p(hall(), {robot_at(3.5, 3.5).to(5.5, 0.5), robot_at(5.5, 1.5), robot_at(0.5, 4.5).to(6.5, 4.5)});
-  p.state.stay_at_start(1);
+  p.state.stay_in_place(1);
   const PartialPlan partial = make_partial_plan(p.state, {0, 2}, {}, p.never, p.progress);
   ASSERT_EQ(robots_of(partial), Robots{0});
   EXPECT_EQ(static_cast<int>(partial.unplanned[0].reason), static_cast<int>(Reason::blocked_by_robots));
@@ -59,7 +59,7 @@ TEST(PartialPlan, ReportsTheRobotsThatBlockAnUnplannedRobot) {
 TEST(PartialPlan, DoesNotReportRobotsThatDoNotBlock) {
   // Robot 2 crosses the path of robot 0 to the closet that robot 1 blocks.
   Planning p(hall(), {robot_at(3.5, 3.5).to(5.5, 0.5), robot_at(5.5, 1.5), robot_at(2.5, 2.5).to(6.5, 2.5)});
-  p.state.stay_at_start(1);
+  p.state.stay_in_place(1);
   p.state.follow(2, through({{2.5, 2.5}, {6.5, 2.5}}));
   ASSERT_EQ(p.state.conflicting_robots(0, p.state.plan_alone(0, p.never)), (Robots{1, 2}));
   const PartialPlan partial = make_partial_plan(p.state, {0}, {}, p.never, p.progress);
@@ -72,7 +72,7 @@ TEST(PartialPlan, ReplansRobotsThatCrossedTheStartOfAnUnplannedRobot) {
   // Robot 0 drives straight over the start of robot 1, which is then found to stay there.
   Planning p(hall(), {robot_at(0.5, 3.5).to(6.5, 3.5), robot_at(3.5, 3.5).to(5.5, 0.5), robot_at(5.5, 1.5)},
              no_start_interval());
-  p.state.stay_at_start(2);
+  p.state.stay_in_place(2);
   p.state.follow(0, through({{0.5, 3.5}, {6.5, 3.5}}));
   const PartialPlan partial = make_partial_plan(p.state, {0, 1}, {}, p.never, p.progress);
   EXPECT_EQ(robots_of(partial), Robots{1});
@@ -86,7 +86,7 @@ TEST(PartialPlan, GivesUpRobotsWithoutAPathAroundAnUnplannedRobot) {
   Planning p(OccupancyGrid(9, 1, 1.0),
              {robot_at(0.5, 0.5).to(5.5, 0.5), robot_at(3.5, 0.5).to(8.5, 0.5), robot_at(7.5, 0.5)},
              no_start_interval());
-  p.state.stay_at_start(2);
+  p.state.stay_in_place(2);
   p.state.follow(0, through({{0.5, 0.5}, {5.5, 0.5}}));
   const PartialPlan partial = make_partial_plan(p.state, {0, 1}, {}, p.never, p.progress);
   ASSERT_EQ(robots_of(partial), (Robots{0, 1}));
@@ -98,7 +98,7 @@ TEST(PartialPlan, GivesUpRobotsWithoutAPathAroundAnUnplannedRobot) {
 
 TEST(PartialPlan, TriesRobotsGivenUpOnceMore) {
   Planning p(hall(), {robot_at(0.5, 3.5).to(6.5, 3.5), robot_at(3.5, 2.5).to(5.5, 0.5)});
-  p.state.stay_at_start(1);
+  p.state.stay_in_place(1);
   const PartialPlan partial = make_partial_plan(p.state, {0}, {1}, p.never, p.progress);
   EXPECT_TRUE(partial.unplanned.empty()) << "no robot blocks it any more";
   EXPECT_TRUE(p.state.trajectory(1));

@@ -36,7 +36,7 @@ TEST(PlanState, IsEmptyAtFirst) {
 
 TEST(PlanState, ReplacesTheReservationOfARobot) {
   Hall p;
-  p.state.stay_at_start(1);
+  p.state.stay_in_place(1);
   EXPECT_EQ(p.crossing_conflicts(), Robots{1});
   EXPECT_EQ(p.crossing_conflicts(1000.0), Robots{1});
   p.state.follow(1, through({{4.5, 2.5}, {4.5, 4.5}}));
@@ -44,10 +44,10 @@ TEST(PlanState, ReplacesTheReservationOfARobot) {
   EXPECT_EQ(p.crossing_conflicts(), Robots{}) << "robot 1 has left by then";
   p.state.follow(1, through({{4.5, 2.5}, {4.5, 4.5}}, 3.0));
   EXPECT_EQ(p.crossing_conflicts(), Robots{1}) << "robot 1 leaves too late";
-  p.state.reserve_start(1, 3.1);
+  p.state.reserve_place(1, 3.1);
   EXPECT_FALSE(p.state.trajectory(1));
   EXPECT_EQ(p.crossing_conflicts(), Robots{}) << "robot 0 arrives later than that";
-  p.state.reserve_start(1, 3.3);
+  p.state.reserve_place(1, 3.3);
   EXPECT_EQ(p.crossing_conflicts(), Robots{1});
   p.state.remove(1);
   EXPECT_EQ(p.crossing_conflicts(), Robots{});
@@ -55,22 +55,22 @@ TEST(PlanState, ReplacesTheReservationOfARobot) {
 
 TEST(PlanState, ReservesNothingForZeroSeconds) {
   Hall p;
-  p.state.stay_at_start(1);
-  p.state.reserve_start(1, 0.0);
+  p.state.stay_in_place(1);
+  p.state.reserve_place(1, 0.0);
   EXPECT_EQ(p.state.conflicting_robots(0, through({{4.5, 2.5}, {5.5, 2.5}})), Robots{});
 }
 
-TEST(PlanState, FindsRobotsThatCrossAStart) {
+TEST(PlanState, FindsRobotsThatCrossAPlace) {
   Hall p;
   p.state.follow(0, through({{0.5, 2.5}, {8.5, 2.5}}));
-  EXPECT_EQ(p.state.robots_crossing_start(1), Robots{0});
+  EXPECT_EQ(p.state.robots_crossing_place(1), Robots{0});
   p.state.follow(0, through({{0.5, 2.5}, {0.5, 4.5}, {8.5, 4.5}}));
-  EXPECT_EQ(p.state.robots_crossing_start(1), Robots{});
+  EXPECT_EQ(p.state.robots_crossing_place(1), Robots{});
 }
 
 TEST(PlanState, PlansAmongReservationsWithoutChangingThem) {
   Hall p;
-  p.state.stay_at_start(1);
+  p.state.stay_in_place(1);
   const auto found = p.state.plan(0, {}, p.never).trajectory;
   ASSERT_TRUE(found);
   EXPECT_GT(found->cost, 8.0) << "around robot 1";
@@ -82,7 +82,7 @@ TEST(PlanState, PlansAmongReservationsWithoutChangingThem) {
 
 TEST(PlanState, PlansARobotAloneOnTheMap) {
   Hall p;
-  p.state.stay_at_start(1);
+  p.state.stay_in_place(1);
   const Trajectory alone = p.state.plan_alone(0, p.never);
   EXPECT_NEAR(alone.cost, 8.0, 1e-12);
   EXPECT_EQ(p.state.conflicting_robots(0, alone), Robots{1});
@@ -112,7 +112,7 @@ TEST(PlanState, AlwaysReservesCommittedMotion) {
   const Trajectory early = p.towards_it();
   EXPECT_EQ(p.state.robots_committed_against(0, early), Robots{1});
   EXPECT_EQ(p.state.conflicting_robots(0, early), Robots{}) << "committed motion does not change";
-  p.state.stay_at_start(1);
+  p.state.stay_in_place(1);
   p.state.remove(1);
   EXPECT_EQ(p.state.robots_committed_against(0, early), Robots{1});
   EXPECT_EQ(p.state.robots_committed_against(1, p.instance.itinerary(1).committed), Robots{});
@@ -122,13 +122,13 @@ TEST(PlanState, ARobotStaysAtItsCommittedEnd) {
   CommittedHall p;
   const Trajectory below = through({{0.5, 0.5}, {8.5, 0.5}}, 10.0);
   EXPECT_EQ(p.state.conflicting_robots(0, below), Robots{});
-  p.state.stay_at_start(1);
+  p.state.stay_in_place(1);
   EXPECT_EQ(p.state.conflicting_robots(0, below), Robots{1});
   EXPECT_EQ(p.state.conflicting_robots(0, through({{4.5, 2.5}, {4.5, 4.5}}, 3.0)), Robots{})
       << "it has left its start for good";
-  p.state.reserve_start(1, 9.0);
+  p.state.reserve_place(1, 9.0);
   EXPECT_EQ(p.state.conflicting_robots(0, below), Robots{}) << "until t = 12, and robot 0 arrives after 13";
-  p.state.reserve_start(1, 11.0);
+  p.state.reserve_place(1, 11.0);
   EXPECT_EQ(p.state.conflicting_robots(0, below), Robots{1});
 }
 
@@ -156,25 +156,25 @@ TEST(PlanState, FollowsATrajectoryThatBeginsWithCommittedMotion) {
   EXPECT_TRUE(p.state.trajectory(1));
 }
 
-TEST(PlanState, SearchesAmongWhatItFinishedWithOnceItResumes) {
+TEST(PlanState, SearchesAmongWhatWasSetWithoutTableOnceItResumes) {
   CommittedHall p;
   const Trajectory across = through({{8.5, 2.5}, {8.5, 0.5}}, 4.0);
   const Trajectory below = through({{0.5, 0.5}, {8.5, 0.5}}, 10.0);
   p.state.follow(1, through({{4.5, 3.5}, {4.5, 0.5}, {8.5, 0.5}}));
   const PlanState::Reservations following = p.state.reservations();
-  p.state.stay_at_start(1);
+  p.state.stay_in_place(1);
   const PlanState::Reservations staying = p.state.reservations();
   ASSERT_EQ(p.state.conflicting_robots(0, across), Robots{});
 
-  p.state.finish_with(following);
+  p.state.set_without_table(following);
   p.state.resume();
   EXPECT_EQ(p.state.conflicting_robots(0, across), Robots{1});
 
-  p.state.finish_with(staying);
+  p.state.set_without_table(staying);
   p.state.restore(following);
   EXPECT_EQ(p.state.conflicting_robots(0, across), Robots{1});
 
-  p.state.finish_with(staying);
+  p.state.set_without_table(staying);
   p.state.restore(staying);
   EXPECT_EQ(p.state.conflicting_robots(0, across), Robots{});
   EXPECT_EQ(p.state.conflicting_robots(0, below), Robots{1});

@@ -89,7 +89,7 @@ TEST(Prioritized, PlansTheOtherRobotsWhenOneIsBlockedByAParkedRobot) {
                {robot_at(4.5, 1.5), robot_at(0.5, 1.5).to(8.5, 1.5), robot_at(8.5, 0.5).to(5.5, 0.5),
                 robot_at(2.5, 2.5).to(0.5, 2.5)},
                Doorway::chosen(Priority::shortest_first, reordering));
-    p.state.stay_at_start(0);
+    p.state.stay_in_place(0);
     const auto result = run(p);
     ASSERT_EQ(robots_of(result), Robots{1});
     EXPECT_EQ(static_cast<int>(result.unplanned[0].reason),
@@ -167,7 +167,7 @@ TEST(Prioritized, DoesNotTryOtherOrdersForARobotThatHasNoPathAtAll) {
                           "....#...."}),
       {robot_at(4.5, 1.5), robot_at(0.5, 1.5).to(8.5, 1.5), robot_at(8.5, 0.5).to(5.5, 0.5),
        robot_at(2.5, 2.5).to(0.5, 2.5), robot_at(6.5, 2.5).to(8.5, 2.5), robot_at(2.5, 0.5).to(1.5, 0.5)});
-  p.state.stay_at_start(0);
+  p.state.stay_in_place(0);
   const auto result = run(p);
   EXPECT_EQ(robots_of(result), Robots{1});
   EXPECT_EQ(result.unplanned[0].blocked_by, Robots{0});

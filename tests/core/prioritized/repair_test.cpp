@@ -40,7 +40,7 @@ TEST(Repair, GivesUpARobotWithoutAPathAmongRobotsThatStay) {
                                  ".........",  //
                                  "....#...."}),
              {robot_at(4.5, 1.5), robot_at(0.5, 1.5).to(8.5, 1.5), robot_at(8.5, 0.5).to(5.5, 0.5)});
-  p.state.stay_at_start(0);
+  p.state.stay_in_place(0);
   Random random(7);
   const OrderingResult result = repair_or_restart(p.state, {1, 2}, random, p.never, p.progress);
   EXPECT_EQ(result.given_up, Robots{1});

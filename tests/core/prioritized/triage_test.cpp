@@ -42,7 +42,7 @@ OccupancyGrid rooms() {
 TEST(Triage, AcceptsRobotsThatCanBePlanned) {
   Planning p(rooms(), {robot_at(1, 1).to(8, 1), robot_at(8, 2).to(1, 2), robot_at(3, 1)});
   for (const auto& robot : triage(p.state, p.never)) EXPECT_FALSE(robot);
-  EXPECT_EQ(p.state.robots_crossing_start(0), Robots{}) << "it has no reservation";
+  EXPECT_EQ(p.state.robots_crossing_place(0), Robots{}) << "it has no reservation";
 }
 
 TEST(Triage, KeepsParkedRobotsAtTheirStarts) {

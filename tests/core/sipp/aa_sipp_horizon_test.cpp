@@ -59,7 +59,7 @@ TEST(AaSippHorizon, EndsWhereTheRobotMayRestFromTheHorizonOn) {
 
 TEST(AaSippHorizon, WaitsUntilTheHorizonBehindARobotThatStays) {
   Planning p(corridor(), {robot_at(0.5, 0.5).to(18.5, 0.5), robot_at(3.5, 0.5)}, up_to(8.0));
-  p.state.stay_at_start(1);
+  p.state.stay_in_place(1);
   const Trajectory trajectory = plan_of(p, 0);
   ASSERT_TRUE(trajectory.stops_at);
   EXPECT_NEAR(*trajectory.stops_at, 8.0, 1e-9);
@@ -79,7 +79,7 @@ TEST(AaSippHorizon, DoesNotRestWhereAnotherRobotPassesLater) {
 
 TEST(AaSippHorizon, GoesOnTowardsAGoalWhereAnotherRobotRests) {
   Planning p(corridor(), {robot_at(0.5, 0.5).to(9.5, 0.5), robot_at(9.5, 0.5).to(15.5, 0.5)}, up_to(20.0));
-  p.state.stay_at_start(1);
+  p.state.stay_in_place(1);
   const Trajectory trajectory = plan_of(p, 0);
   ASSERT_TRUE(trajectory.stops_at);
   EXPECT_NEAR(trajectory.end().x(), 8.5, 1e-9);

@@ -177,7 +177,7 @@ TEST(AaSippSequence, ServesBeforeAnotherRobotPassesIfThereIsTime) {
 TEST(AaSippSequence, ProvesQuicklyThatAGoalOnTheWayIsNeverFree) {
   Planning p(OccupancyGrid(10, 5, 1.0),
              {with_goals(robot_at(1.5, 2.5), {{{4.5, 2.5}, {}, 3.0}, {{8.5, 2.5}, {}}}), robot_at(4.5, 2.5)});
-  p.state.stay_at_start(1);
+  p.state.stay_in_place(1);
   const SearchResult result = p.state.plan(0, {}, p.never);
   EXPECT_FALSE(result.trajectory);
   EXPECT_TRUE(result.complete);

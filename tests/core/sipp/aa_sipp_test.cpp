@@ -154,7 +154,7 @@ TEST(AaSipp, StepsAsideAndReturnsOffLattice) {
 
 TEST(AaSipp, ProvesThatNoPathLeadsPastParkedRobot) {
   Planning p(crossing(), {robot_at(0.5, 2.5).to(8.5, 2.5), robot_at(4.5, 2.5), robot_at(8.0, 2.5)});
-  p.state.stay_at_start(1);
+  p.state.stay_in_place(1);
   const SearchResult result = p.state.plan(0, kExact, p.never);
   EXPECT_FALSE(result.trajectory);
   EXPECT_TRUE(result.complete);
@@ -162,7 +162,7 @@ TEST(AaSipp, ProvesThatNoPathLeadsPastParkedRobot) {
 
 TEST(AaSipp, RejectsOccupiedGoalWithoutExpansions) {
   Planning p(OccupancyGrid(9, 5, 1.0), {robot_at(0.5, 2.5).to(8.5, 2.5), robot_at(8.0, 2.5)});
-  p.state.stay_at_start(1);
+  p.state.stay_in_place(1);
   const SearchResult result = p.state.plan(0, kExact, p.never);
   EXPECT_FALSE(result.trajectory);
   EXPECT_TRUE(result.complete);
