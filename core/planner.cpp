@@ -19,6 +19,7 @@
 #include "core/prioritized/prioritized_planning.h"
 #include "core/prioritized/progress_report.h"
 #include "core/prioritized/triage.h"
+#include "core/prioritized/yielding.h"
 #include "core/replan/kept_plans.h"
 #include "core/runtime/memory_account.h"
 
@@ -26,19 +27,20 @@ namespace fleetplan::core {
 namespace {
 
 /// Returns the costs of the robots' trajectories, by robot; infinite for robots without one.
-std::vector<double> costs_of(const PlanState& state) {
-  std::vector<double> costs(state.instance().size(), kForever);
+std::vector<double> costs_of(const FleetReservations& reservations) {
+  std::vector<double> costs(reservations.instance().size(), kForever);
   for (std::size_t i = 0; i < costs.size(); ++i) {
-    if (const auto& trajectory = state.trajectory(i)) costs[i] = trajectory->cost;
+    if (const auto& trajectory = reservations.trajectory(i)) costs[i] = trajectory->cost;
   }
   return costs;
 }
 
 /// Returns the objectives of the robots that follow a trajectory.
-Objectives objectives_of(const PlanState& state) {
+Objectives objectives_of(const FleetReservations& reservations) {
   Objectives objectives;
-  for (std::size_t i = 0; i < state.instance().size(); ++i) {
-    if (const auto& trajectory = state.trajectory(i)) objectives = including(objectives, trajectory->cost);
+  for (std::size_t i = 0; i < reservations.instance().size(); ++i) {
+    if (const auto& trajectory = reservations.trajectory(i))
+      objectives = including(objectives, trajectory->cost);
   }
   return objectives;
 }
@@ -47,13 +49,12 @@ Objectives objectives_of(const PlanState& state) {
 constexpr double kBoundsShare = 0.2;
 
 /// The robots that triage leaves to be planned.
-std::vector<std::size_t> robots_to_plan(const PlanState& state,
+std::vector<std::size_t> robots_to_plan(const FleetReservations& reservations,
                                         const std::vector<std::optional<Unplanned>>& unplanned) {
-  const std::vector<double>& stays_until = state.reservations().holds_place_for;
   std::vector<std::size_t> movers;
-  for (std::size_t i = 0; i < state.instance().size(); ++i) {
-    const Robot& robot = state.instance().robot(i);
-    if (robot.goal && !unplanned[i] && !(robot.is_idle() && stays_until[i] == kForever)) movers.push_back(i);
+  for (std::size_t i = 0; i < reservations.instance().size(); ++i) {
+    const Robot& robot = reservations.instance().robot(i);
+    if (robot.goal && !unplanned[i] && !(robot.is_idle() && reservations.stays(i))) movers.push_back(i);
   }
   return movers;
 }
@@ -127,11 +128,11 @@ PrioritizedResult first_plan(PlanState& state, const KeptPlans& previous,
                              const std::vector<std::size_t>& movers, Random& random,
                              const StopCondition& stop, ProgressReport& progress) {
   if (is_final(previous, state.instance().problem(), state.instance().options(), stop)) {
-    finish_with_kept_plans(state, movers);
+    finish_with_kept_plans(state.reservations(), movers);
     return {};
   }
   const KeptPlans certain = certain_plans(previous, state.instance(), stop);
-  if (follow_kept_plans(state, previous, certain) == 0) {
+  if (follow_kept_plans(state.reservations(), previous, certain) == 0) {
     return plan_prioritized(state, movers, random, PlanningTime::until(stop), progress);
   }
   const bool is_spent = stop.met();
@@ -146,7 +147,8 @@ PrioritizedResult first_plan(PlanState& state, const KeptPlans& previous,
 std::vector<std::size_t> changeable_robots(const PlanState& state, std::vector<std::size_t> movers) {
   if (const auto& whole = state.whole_way_of()) std::erase(movers, *whole);
   if (state.instance().options().replan == PlanOptions::Replan::where_needed) {
-    std::erase_if(movers, [&](std::size_t robot) { return state.trajectory(robot)->is_previous; });
+    const FleetReservations& reservations = state.reservations();
+    std::erase_if(movers, [&](std::size_t robot) { return reservations.trajectory(robot)->is_previous; });
   }
   return movers;
 }
@@ -161,15 +163,16 @@ constexpr double kLeastGain = 1e-6;
 /// it has found such a plan.
 bool undo_vain_move(PlanState& state, std::size_t robot, std::int64_t& expansions_left,
                     const StopCondition& stop) {
-  Trajectory now = *state.trajectory(robot);
+  FleetReservations& reservations = state.reservations();
+  Trajectory now = *reservations.trajectory(robot);
   SearchLimits limits;
   limits.bound = now.cost - kLeastGain;
   limits.max_expansions = std::max<std::int64_t>(expansions_left, 1);
-  state.remove(robot);
+  reservations.remove(robot);
   SearchResult result = state.plan(robot, limits, stop);
   expansions_left -= result.expansions;
   const bool is_undone = result.trajectory.has_value();
-  state.follow(robot, is_undone ? std::move(*result.trajectory) : std::move(now));
+  reservations.follow(robot, is_undone ? std::move(*result.trajectory) : std::move(now));
   return is_undone;
 }
 
@@ -177,24 +180,26 @@ bool undo_vain_move(PlanState& state, std::size_t robot, std::int64_t& expansion
 /// in `state` do not need that any more, until no such robot is left. Previous plans are left as they are.
 /// Returns whether `stop` ended it early.
 bool undo_vain_moves(PlanState& state, const StopCondition& stop) {
-  std::vector<std::size_t> makes_way;
-  for (std::size_t robot = 0; robot < state.instance().size() && state.any_yields(); ++robot) {
-    if (state.makes_way(robot) && !state.trajectory(robot)->is_previous) makes_way.push_back(robot);
+  FleetReservations& reservations = state.reservations();
+  std::vector<std::size_t> robots;
+  for (std::size_t robot = 0; robot < state.instance().size(); ++robot) {
+    const bool is_new = makes_way(reservations, robot) && !reservations.trajectory(robot)->is_previous;
+    if (is_new) robots.push_back(robot);
   }
-  if (makes_way.empty()) return false;
+  if (robots.empty()) return false;
   if (stop.met()) return true;
-  state.resume();
+  reservations.resume();
   std::vector<std::int64_t> expansions_left(state.instance().size(), kMostExpansions);
   // One that no longer makes way may have been what others made way for.
   for (bool is_any_undone = true; is_any_undone;) {
     is_any_undone = false;
-    for (const std::size_t robot : makes_way) {
+    for (const std::size_t robot : robots) {
       if (stop.met()) return true;
       is_any_undone = undo_vain_move(state, robot, expansions_left[robot], stop) || is_any_undone;
     }
-    std::erase_if(makes_way, [&](std::size_t robot) {
+    std::erase_if(robots, [&](std::size_t robot) {
       const bool may_gain = expansions_left[robot] > 0 || state.instance().robot(robot).is_idle();
-      return !state.makes_way(robot) || !may_gain;
+      return !makes_way(reservations, robot) || !may_gain;
     });
   }
   return false;
@@ -202,12 +207,12 @@ bool undo_vain_moves(PlanState& state, const StopCondition& stop) {
 
 /// Finds the unavoidable collisions, and names them in `unplanned` as the reason of robots that have no way,
 /// or no goal, and stay where something passes.
-UnavoidableCollisions find_unavoidable(const PlanState& state,
+UnavoidableCollisions find_unavoidable(const FleetReservations& reservations,
                                        std::vector<std::optional<Unplanned>>& unplanned,
                                        const StopCondition& stop) {
-  const Instance& instance = state.instance();
+  const Instance& instance = reservations.instance();
   std::vector<bool> planned(instance.size(), false);
-  for (std::size_t i = 0; i < instance.size(); ++i) planned[i] = state.trajectory(i).has_value();
+  for (std::size_t i = 0; i < instance.size(); ++i) planned[i] = reservations.trajectory(i).has_value();
   UnavoidableCollisions found = unavoidable_collisions(instance.problem(), planned, stop);
   std::vector<std::vector<std::size_t>> others(found.while_staying.size());
   for (const UnavoidableCollision& collision : found.collisions) {
@@ -249,11 +254,11 @@ class ImprovementReport {
  public:
   using CurrentPlan = std::function<Plan(const LnsResult&)>;
 
-  ImprovementReport(const PlanState& state, ProgressReport& progress, CurrentPlan current_plan)
-      : state_(state), progress_(progress), current_plan_(std::move(current_plan)) {}
+  ImprovementReport(const FleetReservations& reservations, ProgressReport& progress, CurrentPlan current_plan)
+      : reservations_(reservations), progress_(progress), current_plan_(std::move(current_plan)) {}
 
   void operator()(const LnsResult& so_far) {
-    if (so_far.improvements > reported_) progress_.plan_found(objectives_of(state_));
+    if (so_far.improvements > reported_) progress_.plan_found(objectives_of(reservations_));
     reported_ = so_far.improvements;
     if (so_far.improvements == shown_ || !progress_.observer()->wants_plan()) return;
     shown_ = so_far.improvements;
@@ -263,7 +268,7 @@ class ImprovementReport {
   }
 
  private:
-  const PlanState& state_;
+  const FleetReservations& reservations_;
   ProgressReport& progress_;
   const CurrentPlan current_plan_;
   std::int64_t reported_ = 0;  // improvements
@@ -282,29 +287,29 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
   const auto memory = std::make_shared<PlanMemory>(problem, options, stop);
   const Instance& instance = memory->instance;
   PlanState& state = memory->state;
-  ProgressReport progress(state, observer);
+  ProgressReport progress(state.reservations(), observer);
   Random random(options.seed);
 
   const KeptPlans previous = plans_to_begin_with(problem, options, beyond_budget(stop, kMostForPrevious));
   std::vector<std::optional<Unplanned>> unplanned = triage(state, stop, previous.kept);
-  std::vector<std::size_t> movers = robots_to_plan(state, unplanned);
+  std::vector<std::size_t> movers = robots_to_plan(state.reservations(), unplanned);
   PrioritizedResult prioritized = first_plan(state, previous, movers, random, stop, progress);
   for (Unplanned& robot : prioritized.unplanned) {
     if (!instance.robot(robot.robot).is_idle()) unplanned[robot.robot] = std::move(robot);
   }
-  std::erase_if(movers, [&](std::size_t robot) { return !state.trajectory(robot); });
+  std::erase_if(movers, [&](std::size_t robot) { return !state.reservations().trajectory(robot); });
   bool cut_off = undo_vain_moves(state, stop);
   unplanned = with_zones_named(problem, options, std::move(unplanned), stop);
   const UnavoidableCollisions found =
-      find_unavoidable(state, unplanned, beyond_budget(stop, kMostForUnavoidable));
-  progress.plan_found(objectives_of(state));
+      find_unavoidable(state.reservations(), unplanned, beyond_budget(stop, kMostForUnavoidable));
+  progress.plan_found(objectives_of(state.reservations()));
 
   const bool anytime = options.mode == PlanOptions::Mode::anytime;
-  const TautPathBounds bounds(instance, movers, costs_of(state),
+  const TautPathBounds bounds(instance, movers, costs_of(state.reservations()),
                               anytime ? after_share(stop, kBoundsShare) : stop);
   const std::int64_t expansions = state.expansions();
   const auto current_plan = [&](const LnsResult& lns) {
-    Plan plan = collect_plan(state, unplanned, bounds);
+    Plan plan = collect_plan(state.reservations(), unplanned, bounds);
     plan.unavoidable = found.collisions;
     plan.unavoidable_known = found.finished;
     plan.search = {prioritized.attempts, expansions + lns.expansions, lns.improvements};
@@ -313,8 +318,8 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
   LnsResult lns;
   if (anytime) {
     BeforeRound before_round;
-    if (observer != nullptr) before_round = ImprovementReport(state, progress, current_plan);
-    if (!stop.is_over()) state.resume();
+    if (observer != nullptr) before_round = ImprovementReport(state.reservations(), progress, current_plan);
+    if (!stop.is_over()) state.reservations().resume();
     lns = large_neighbourhood_search(state, changeable_robots(state, movers), bounds, random, executor, stop,
                                      before_round);
     cut_off = undo_vain_moves(state, briefly(stop)) || cut_off;

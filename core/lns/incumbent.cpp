@@ -14,9 +14,9 @@ Incumbent::Incumbent(const PlanState& state, std::vector<std::size_t> planned)
       shares_(state.instance().size(), 0.0),
       versions_(state.instance().size(), 0) {
   for (std::size_t robot = 0; robot < trajectories_.size(); ++robot) {
-    if (!state.trajectory(robot)) continue;
+    if (!state.reservations().trajectory(robot)) continue;
     followers_.push_back(robot);
-    trajectories_[robot] = *state.trajectory(robot);
+    trajectories_[robot] = *state.reservations().trajectory(robot);
     shares_[robot] = share_of(robot);
   }
 }

@@ -279,7 +279,7 @@ bool Iterations::is_outdated(const Iteration& iteration, Workspace& workspace) c
   workspace.update();
   return std::any_of(parts.begin(), parts.end(), [&](const Change::Part& part) {
     if (for_makespan_ && part.trajectory.cost > makespan) return true;
-    const auto conflicting = workspace.state().conflicting_robots(part.robot, part.trajectory);
+    const auto conflicting = workspace.state().reservations().conflicting_robots(part.robot, part.trajectory);
     return !std::all_of(conflicting.begin(), conflicting.end(), is_part);
   });
 }

@@ -194,7 +194,7 @@ LnsResult large_neighbourhood_search(PlanState& state, const std::vector<std::si
                                      const StopCondition& stop, const BeforeRound& before_round) {
   std::vector<std::size_t> planned;
   for (const std::size_t robot : movers) {
-    if (state.trajectory(robot)) planned.push_back(robot);
+    if (state.reservations().trajectory(robot)) planned.push_back(robot);
   }
   constexpr auto kUnlimited = std::numeric_limits<std::int64_t>::max();
   const auto search =

@@ -41,7 +41,8 @@ std::vector<std::size_t> NeighbourhoodSelection::select(std::size_t first, Neigh
     case Neighbourhood::conflicting:
       return conflicting_with(first, size, random);
     case Neighbourhood::nearest:
-      return nearest_to(first, size, distances_at(random.unit() * state_.trajectory(first)->cost, first));
+      return nearest_to(first, size,
+                        distances_at(random.unit() * state_.reservations().trajectory(first)->cost, first));
     case Neighbourhood::at_goal:
       return nearest_to(first, size, distances_to_goal(first, random));
     case Neighbourhood::random:
@@ -56,7 +57,7 @@ std::vector<std::size_t> NeighbourhoodSelection::conflicting_with(std::size_t fi
   // Bounded: `size` robots, each with its conflicts.
   for (std::size_t k = 0; k < selected.size() && selected.size() < size; ++k) {  // selected grows
     std::vector<std::size_t> conflicting =
-        state_.conflicting_robots(selected[k], trajectory_alone(selected[k]));
+        state_.reservations().conflicting_robots(selected[k], trajectory_alone(selected[k]));
     random.shuffle(conflicting);
     for (const std::size_t robot : conflicting) {
       const bool full = selected.size() == size;
@@ -91,20 +92,20 @@ std::vector<std::size_t> NeighbourhoodSelection::random_with(std::size_t first, 
 }
 
 std::vector<double> NeighbourhoodSelection::distances_at(double time, std::size_t first) const {
-  const Position center = position_at(*state_.trajectory(first), time);
+  const Position center = position_at(*state_.reservations().trajectory(first), time);
   std::vector<double> distances;
   for (const std::size_t robot : planned_) {
-    const double distance = (position_at(*state_.trajectory(robot), time) - center).norm();
+    const double distance = (position_at(*state_.reservations().trajectory(robot), time) - center).norm();
     distances.push_back(distance - state_.instance().motion(robot).pair_radius);
   }
   return distances;
 }
 
 std::vector<double> NeighbourhoodSelection::distances_to_goal(std::size_t first, Random& random) const {
-  const Position goal = state_.trajectory(first)->end();
+  const Position goal = state_.reservations().trajectory(first)->end();
   std::vector<double> distances;
   for (const std::size_t robot : planned_) {
-    const double distance = distance_to(goal, *state_.trajectory(robot));
+    const double distance = distance_to(goal, *state_.reservations().trajectory(robot));
     distances.push_back((0.5 + random.unit()) * distance);  // varied at random
   }
   return distances;
@@ -137,8 +138,8 @@ class NeighbourhoodPlanning {
 
   NeighbourhoodResult run() {
     const bool accepted = plan_queue();
-    for (const Change::Part& part : before_) state_.remove(part.robot);
-    for (Change::Part& part : before_) state_.follow(part.robot, std::move(part.trajectory));
+    for (const Change::Part& part : before_) state_.reservations().remove(part.robot);
+    for (Change::Part& part : before_) state_.reservations().follow(part.robot, std::move(part.trajectory));
     NeighbourhoodResult result{std::nullopt, searches_, expansions_};
     if (accepted) result.change = std::move(change_);
     return result;
@@ -148,7 +149,7 @@ class NeighbourhoodPlanning {
   double share(std::size_t robot, const Trajectory& trajectory) const {
     return share_of(instance_.robot(robot), objective_, trajectory);
   }
-  double share(std::size_t robot) const { return share(robot, *state_.trajectory(robot)); }
+  double share(std::size_t robot) const { return share(robot, *state_.reservations().trajectory(robot)); }
   double least_share(std::size_t robot) const {
     return core::least_share(instance_.robot(robot), objective_, bounds_[robot]);
   }
@@ -209,7 +210,7 @@ class NeighbourhoodPlanning {
 
   void enqueue_conflicting(std::size_t robot, const Trajectory& trajectory) {
     if (unplanned_.empty()) return;
-    for (const std::size_t other : state_.conflicting_robots(robot, trajectory)) {
+    for (const std::size_t other : state_.reservations().conflicting_robots(robot, trajectory)) {
       const bool may_change = std::find(unplanned_.begin(), unplanned_.end(), other) != unplanned_.end();
       if (may_change && std::find(queue_.begin(), queue_.end(), other) == queue_.end()) {
         queue_.push_back(other);
@@ -218,8 +219,8 @@ class NeighbourhoodPlanning {
   }
 
   void follow_for_now(const Change::Part& part) {
-    before_.push_back({part.robot, *state_.trajectory(part.robot)});
-    state_.follow(part.robot, part.trajectory);
+    before_.push_back({part.robot, *state_.reservations().trajectory(part.robot)});
+    state_.reservations().follow(part.robot, part.trajectory);
   }
 
   PlanState& state_;

@@ -23,7 +23,7 @@ Workspace::Workspace(const Instance& instance, const Incumbent& incumbent, const
   std::vector<bool> stays(own_instance_->size(), true);
   for (const std::size_t robot : incumbent.followers()) stays[robot] = false;
   for (std::size_t robot = 0; robot < stays.size(); ++robot) {
-    if (stays[robot]) state_->stay_in_place(robot);
+    if (stays[robot]) state_->reservations().stay_in_place(robot);
   }
 }
 
@@ -32,9 +32,9 @@ void Workspace::update() {
   for (const std::size_t robot : incumbent_.followers()) {
     if (versions_[robot] != incumbent_.version(robot)) outdated.push_back(robot);
   }
-  for (const std::size_t robot : outdated) state_->remove(robot);
+  for (const std::size_t robot : outdated) state_->reservations().remove(robot);
   for (const std::size_t robot : outdated) {
-    state_->follow(robot, incumbent_.trajectory(robot));
+    state_->reservations().follow(robot, incumbent_.trajectory(robot));
     versions_[robot] = incumbent_.version(robot);
   }
 }
@@ -42,10 +42,10 @@ void Workspace::update() {
 void Workspace::update(const std::map<std::size_t, Trajectory>& others) {
   update();
   for (const auto& [robot, trajectory] : others) {
-    state_->remove(robot);
+    state_->reservations().remove(robot);
     versions_[robot] = -1;
   }
-  for (const auto& [robot, trajectory] : others) state_->follow(robot, trajectory);
+  for (const auto& [robot, trajectory] : others) state_->reservations().follow(robot, trajectory);
 }
 
 void Workspace::invalidate() { std::fill(versions_.begin(), versions_.end(), -1); }

@@ -50,9 +50,10 @@ void remove_unserved_last(std::vector<Visit>& visits, const Robot& robot, double
   if (served > stops_at + kSameTime) visits.pop_back();
 }
 
-RobotPlan robot_plan(const PlanState& state, std::size_t index, double bound) {
-  const auto& trajectory = state.trajectory(index);
-  const Robot& robot = state.instance().robot(index);
+RobotPlan robot_plan(const FleetReservations& reservations, std::size_t index, double bound) {
+  const auto& trajectory = reservations.trajectory(index);
+  const Instance& instance = reservations.instance();
+  const Robot& robot = instance.robot(index);
   if (!trajectory)
     return {index, robot.committed_until(), robot.committed, robot.committed_until()};  // parked
   const double cost = trajectory->stops_at.value_or(trajectory->cost);
@@ -61,13 +62,13 @@ RobotPlan robot_plan(const PlanState& state, std::size_t index, double bound) {
     return {index, cost, actions, std::min(bound, cost), visits_of(robot, actions)};
   }
   // Rounding may leave a bound slightly above the cost that it bounds.
-  std::vector<Action> actions = to_actions(robot, *trajectory, state.instance().drive_zones(index));
+  std::vector<Action> actions = to_actions(robot, *trajectory, instance.drive_zones(index));
   std::vector<Visit> visits = visits_of(robot, actions);
   remove_wrong_goals(actions, visits, robot.committed.size());
   if (trajectory->stops_at) remove_unserved_last(visits, robot, *trajectory->stops_at);
   RobotPlan plan{index, cost, std::move(actions), std::min(bound, cost), std::move(visits)};
   if (trajectory->stops_at) {
-    add_estimates(plan, *trajectory, commitment_gains(robot, state.instance().itinerary(index)));
+    add_estimates(plan, *trajectory, commitment_gains(robot, instance.itinerary(index)));
   }
   return plan;
 }
@@ -84,19 +85,20 @@ Objectives estimated_objectives(const Plan& plan) {
 
 }  // namespace
 
-Plan collect_plan(const PlanState& state, const std::vector<std::optional<Unplanned>>& unplanned,
-                  const TautPathBounds& bounds) {
+Plan collect_plan(const FleetReservations& reservations,
+                  const std::vector<std::optional<Unplanned>>& unplanned, const TautPathBounds& bounds) {
   Plan plan;
-  const std::optional<double>& horizon = state.instance().options().horizon;
-  for (std::size_t i = 0; i < state.instance().size(); ++i) {
+  const Instance& instance = reservations.instance();
+  const std::optional<double>& horizon = instance.options().horizon;
+  for (std::size_t i = 0; i < instance.size(); ++i) {
     if (unplanned[i]) {
       plan.unplanned.push_back(*unplanned[i]);
       continue;
     }
     // With a horizon, a plan may stop there, or where the committed actions end if that is later.
     double bound = bounds[i];
-    if (horizon) bound = std::min(bound, std::max(*horizon, state.instance().itinerary(i).t_begin));
-    const RobotPlan& robot = plan.plans.emplace_back(robot_plan(state, i, bound));
+    if (horizon) bound = std::min(bound, std::max(*horizon, instance.itinerary(i).t_begin));
+    const RobotPlan& robot = plan.plans.emplace_back(robot_plan(reservations, i, bound));
     plan.objectives = including(plan.objectives, robot.cost);
     plan.lower_bound = including(plan.lower_bound, robot.lower_bound);
   }
@@ -108,15 +110,6 @@ namespace {
 
 /// Steps of Enclosure for each robot: about 2 ms.
 constexpr std::int64_t kStepsOfStuck = 50'000;
-
-std::vector<std::size_t> robots_that_stay(const PlanState& state) {
-  const std::vector<double>& until = state.reservations().holds_place_for;
-  std::vector<std::size_t> staying;
-  for (std::size_t robot = 0; robot < until.size(); ++robot) {
-    if (until[robot] == kForever) staying.push_back(robot);
-  }
-  return staying;
-}
 
 /// Without a way to its goals.
 void have_no_way(RobotPlan& plan, const std::vector<std::size_t>& closed_by) {
@@ -140,8 +133,8 @@ Plan with_stuck_explained(PlanState& state, Plan plan, const StopCondition& stop
   const auto is_stuck = [](const RobotPlan& robot) { return robot.is_stuck; };
   if (std::none_of(plan.plans.begin(), plan.plans.end(), is_stuck)) return plan;
   try {
-    state.resume();
-    const std::vector<std::size_t> staying = robots_that_stay(state);
+    state.reservations().resume();
+    const std::vector<std::size_t> staying = state.reservations().staying_robots();
     BlockingRobots blocking(state, stop);
     for (RobotPlan& robot : plan.plans) {
       if (robot.is_stuck && !stop.met()) explain_stuck(state, robot, staying, blocking);

@@ -1,7 +1,7 @@
 #pragma once
 
-// The plan of a state: its trajectories as actions. What it says of robots that stop at the horizon: when
-// they would come to the goals that are left, and who keeps those that are stuck from them.
+// The plan of all robots: their trajectories as actions. What it says of robots that stop at the horizon:
+// when they would come to the goals that are left, and who keeps those that are stuck from them.
 
 #include <optional>
 #include <vector>
@@ -16,10 +16,10 @@
 
 namespace fleetplan::core {
 
-/// Returns the plan of a state without its search statistics: every robot is unplanned, follows its
+/// Returns the plan that is reserved, without search statistics: every robot is unplanned, follows its
 /// trajectory, or is parked. `unplanned` is by robot.
-Plan collect_plan(const PlanState& state, const std::vector<std::optional<Unplanned>>& unplanned,
-                  const TautPathBounds& bounds);
+Plan collect_plan(const FleetReservations& reservations,
+                  const std::vector<std::optional<Unplanned>>& unplanned, const TautPathBounds& bounds);
 
 /// Returns the plan with what keeps its stuck robots from their goals: RobotPlan::blocked_by, and no
 /// estimates where robots that stay for good close the way. `state` follows the plan. What takes longer than

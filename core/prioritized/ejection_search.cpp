@@ -67,7 +67,7 @@ std::vector<std::size_t> EjectionSearch::counts_to_ignore(const Robots& planned)
 /// Improves a path: tries to do without half of the robots that it conflicts with, then without a quarter,
 /// and so on down to single ones, beginning with those at the end of `planned`.
 SearchResult EjectionSearch::eject_fewer(std::size_t robot, SearchResult result, const Robots& planned) {
-  const Robots conflicting = state_.conflicting_robots(robot, *result.trajectory);
+  const Robots conflicting = state_.reservations().conflicting_robots(robot, *result.trajectory);
   Robots candidates;
   for (auto other = planned.rbegin(); other != planned.rend(); ++other) {
     if (std::binary_search(conflicting.begin(), conflicting.end(), *other)) candidates.push_back(*other);
@@ -82,7 +82,7 @@ SearchResult EjectionSearch::eject_fewer(std::size_t robot, SearchResult result,
     SearchResult better = state_.plan_ignoring(ignored, robot, ejection_limits(), stop_);
     if (better.trajectory) {
       result = std::move(better);
-      const Robots now = state_.conflicting_robots(robot, *result.trajectory);
+      const Robots now = state_.reservations().conflicting_robots(robot, *result.trajectory);
       const auto is_clear = [&](std::size_t other) {
         return !std::binary_search(now.begin(), now.end(), other);
       };

@@ -31,8 +31,8 @@ bool is_simple(const Instance& instance, std::size_t robot) {
 /// Makes the graph of a fleet's steps, if it has one.
 class StepGraph {
  public:
-  StepGraph(const PlanState& state, const std::vector<std::size_t>& robots)
-      : state_(state), instance_(state.instance()), robots_(robots) {}
+  StepGraph(const FleetReservations& reservations, const std::vector<std::size_t>& robots)
+      : reservations_(reservations), instance_(reservations.instance()), robots_(robots) {}
 
   std::optional<StepProblem> make(const StopCondition& stop) {
     const PlanOptions& options = instance_.options();
@@ -84,7 +84,7 @@ class StepGraph {
     for (const std::size_t robot : robots_) moves[robot] = true;
     // Bounded: the robots, each with the few vertices around it.
     for (std::size_t i = 0; i < instance_.size(); ++i) {
-      if (moves[i] || state_.reservations().holds_place_for[i] != kForever) continue;
+      if (moves[i] || !reservations_.stays(i)) continue;
       const Position& position = instance_.itinerary(i).pose.position;
       widest_ = std::max(widest_, instance_.largest_disk(i).pair_radius);
       const int vertex = lattice.vertex_at(position);
@@ -119,7 +119,7 @@ class StepGraph {
     return all;
   }
 
-  const PlanState& state_;
+  const FleetReservations& reservations_;
   const Instance& instance_;
   const std::vector<std::size_t>& robots_;
   std::vector<bool> taken_;  // by vertex
@@ -270,29 +270,29 @@ class TimedSteps {
 
 }  // namespace
 
-std::optional<std::vector<Trajectory>> plan_in_steps(const PlanState& state,
+std::optional<std::vector<Trajectory>> plan_in_steps(const FleetReservations& reservations,
                                                      const std::vector<std::size_t>& robots, Random& random,
                                                      const StopCondition& stop) {
-  const auto problem = StepGraph(state, robots).make(stop);
+  const auto problem = StepGraph(reservations, robots).make(stop);
   if (!problem) return std::nullopt;
   const auto configurations = plan_steps(*problem, random, stop);
   if (!configurations) return std::nullopt;
-  TimedSteps steps(state.instance(), robots, state.instance().lattice(robots.front()));
+  TimedSteps steps(reservations.instance(), robots, reservations.instance().lattice(robots.front()));
   for (std::size_t k = 1; k < configurations->size(); ++k) {
     if (stop.met()) return std::nullopt;
     steps.step((*configurations)[k - 1], (*configurations)[k]);
   }
   std::vector<Trajectory> trajectories = steps.finish();
   for (std::size_t k = 0; k < robots.size(); ++k) {
-    if (trajectories[k].cost >= state.instance().longest_plan(robots[k])) return std::nullopt;
+    if (trajectories[k].cost >= reservations.instance().longest_plan(robots[k])) return std::nullopt;
   }
   return trajectories;
 }
 
-bool follow_steps(PlanState& state, const std::vector<std::size_t>& order,
+bool follow_steps(FleetReservations& reservations, const std::vector<std::size_t>& order,
                   const std::vector<std::size_t>& hopeless, Random& random, const StopCondition& stop,
                   ProgressReport& progress) {
-  std::vector<bool> moves(state.instance().size(), false);
+  std::vector<bool> moves(reservations.instance().size(), false);
   for (const std::size_t robot : order) moves[robot] = true;
   for (const std::size_t robot : hopeless) moves[robot] = false;
   std::vector<std::size_t> robots;
@@ -300,18 +300,18 @@ bool follow_steps(PlanState& state, const std::vector<std::size_t>& order,
     if (moves[robot]) robots.push_back(robot);
   }
   for (std::size_t i = 0; i < moves.size(); ++i) {
-    if (!moves[i] && state.trajectory(i)) return false;  // its motion is not known to steps
+    if (!moves[i] && reservations.trajectory(i)) return false;  // its motion is not known to steps
   }
   const StopCondition part = after_share(stop, kShareOfSteps);
-  const PlanState::Reservations before = state.reservations();
+  const FleetReservations::Snapshot before = reservations.snapshot();
   try {
-    auto trajectories = plan_in_steps(state, robots, random, part);
+    auto trajectories = plan_in_steps(reservations, robots, random, part);
     if (!trajectories) return false;
-    for (const std::size_t robot : robots) state.remove(robot);
+    for (const std::size_t robot : robots) reservations.remove(robot);
     bool is_free = true;
     for (std::size_t k = 0; k < robots.size() && is_free; ++k) {
-      is_free = !part.met() && state.conflicting_robots(robots[k], (*trajectories)[k]).empty();
-      if (is_free) state.follow(robots[k], std::move((*trajectories)[k]));
+      is_free = !part.met() && reservations.conflicting_robots(robots[k], (*trajectories)[k]).empty();
+      if (is_free) reservations.follow(robots[k], std::move((*trajectories)[k]));
     }
     if (is_free) {
       progress.next_attempt();
@@ -320,7 +320,7 @@ bool follow_steps(PlanState& state, const std::vector<std::size_t>& order,
     }
   } catch (const std::bad_alloc&) {  // not granted to the job
   }
-  state.restore(before);
+  reservations.restore(before);
   return false;
 }
 

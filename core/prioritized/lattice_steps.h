@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/model/trajectory.h"
-#include "core/prioritized/plan_state.h"
+#include "core/prioritized/fleet_reservations.h"
 #include "core/prioritized/progress_report.h"
 #include "core/runtime/random.h"
 #include "core/runtime/stop_condition.h"
@@ -24,14 +24,14 @@ namespace fleetplan::core {
 /// interval margin, and for too many robots and vertices.
 ///
 /// Returns a trajectory for each of the robots, in their order.
-std::optional<std::vector<Trajectory>> plan_in_steps(const PlanState& state,
+std::optional<std::vector<Trajectory>> plan_in_steps(const FleetReservations& reservations,
                                                      const std::vector<std::size_t>& robots, Random& random,
                                                      const StopCondition& stop);
 
 /// Plans the robots of `order`, which no others but those that stay share the map with, in steps, except for
 /// the `hopeless` ones, which stay. Returns whether all of them follow the result, and nobody meets; if not,
 /// no reservation has changed. Takes a part of the time until `stop`.
-bool follow_steps(PlanState& state, const std::vector<std::size_t>& order,
+bool follow_steps(FleetReservations& reservations, const std::vector<std::size_t>& order,
                   const std::vector<std::size_t>& hopeless, Random& random, const StopCondition& stop,
                   ProgressReport& progress);
 

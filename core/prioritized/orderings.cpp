@@ -145,13 +145,14 @@ struct Attempt {
 /// Plans in this order until a robot fails; the first robot starts after `start_delay` seconds.
 Attempt try_order(PlanState& state, const PriorityOrder& order, double start_delay, const StopCondition& stop,
                   ProgressReport& progress) {
+  FleetReservations& reservations = state.reservations();
   const double reserved = state.instance().options().start_safe_interval;
-  for (const std::size_t robot : order) state.reserve_place(robot, reserved);
+  for (const std::size_t robot : order) reservations.reserve_place(robot, reserved);
   progress.next_attempt();
   Attempt attempt{order, {}, std::nullopt};
   for (const std::size_t robot : order) {
     if (stop.met()) break;
-    state.remove(robot);
+    reservations.remove(robot);
     const double delay = robot == order.front() ? start_delay : 0.0;
     SearchResult result = state.plan(robot, {.start_delay = delay}, stop);
     if (!result.trajectory) {
@@ -159,17 +160,18 @@ Attempt try_order(PlanState& state, const PriorityOrder& order, double start_del
       break;
     }
     attempt.trajectories.push_back(*result.trajectory);
-    state.follow(robot, std::move(*result.trajectory));
+    reservations.follow(robot, std::move(*result.trajectory));
     progress.update();
   }
   return attempt;
 }
 
-/// Restores the state of an attempt. Returns the robots without a trajectory.
-std::vector<std::size_t> restore(PlanState& state, Attempt best) {
-  for (const std::size_t robot : best.order) state.remove(robot);
+/// Restores the reservations of an attempt. Returns the robots without a trajectory.
+std::vector<std::size_t> restore(FleetReservations& reservations, Attempt best) {
+  for (const std::size_t robot : best.order) reservations.remove(robot);
   const std::size_t planned = best.trajectories.size();
-  for (std::size_t k = 0; k < planned; ++k) state.follow(best.order[k], std::move(best.trajectories[k]));
+  for (std::size_t k = 0; k < planned; ++k)
+    reservations.follow(best.order[k], std::move(best.trajectories[k]));
   return {best.order.begin() + static_cast<std::ptrdiff_t>(planned), best.order.end()};
 }
 
@@ -195,7 +197,7 @@ class Restarts {
       orders_.shuffle();
       if (!attempt(random_start_delay(state_.instance(), orders_.current(), random_))) break;
     }
-    result_.unsolved = restore(state_, std::move(best_));
+    result_.unsolved = restore(state_.reservations(), std::move(best_));
     return std::move(result_);
   }
 
@@ -212,7 +214,7 @@ class Restarts {
       return this->attempt(0.0);
     }
     if (attempt.trajectories.size() >= best_.trajectories.size()) best_ = std::move(attempt);
-    if (result_.cut_off && on_stop_ && on_stop_(restore(state_, best_), result_.given_up)) {
+    if (result_.cut_off && on_stop_ && on_stop_(restore(state_.reservations(), best_), result_.given_up)) {
       return this->attempt(start_delay);
     }
     return failed_.has_value();
@@ -221,7 +223,7 @@ class Restarts {
   void give_up(std::size_t robot) {
     result_.given_up.push_back(robot);
     orders_.drop(robot);
-    state_.stay_in_place(robot);
+    state_.reservations().stay_in_place(robot);
     best_ = {orders_.current(), {}, std::nullopt};
   }
 

@@ -34,6 +34,7 @@ class SafePlanner {
  public:
   SafePlanner(PlanState& state, Effort effort, const StopCondition& stop, ProgressReport& progress)
       : state_(state),
+        reservations_(state.reservations()),
         rounds_(rounds_of(effort)),
         stop_(stop),
         progress_(progress),
@@ -44,7 +45,7 @@ class SafePlanner {
   SafePlan run(const std::vector<std::size_t>& unsolved, const std::vector<std::size_t>& given_up) {
     staying_ = given_up;
     for (const std::size_t robot : unsolved) {
-      if (!state_.trajectory(robot)) stay(robot);
+      if (!reservations_.trajectory(robot)) stay(robot);
     }
     stop_conflicting_robots();
     sort_by_distance();
@@ -59,15 +60,15 @@ class SafePlanner {
 
  private:
   void stay(std::size_t robot) {
-    earlier_[robot] = state_.trajectory(robot);
-    state_.stay_in_place(robot);
+    earlier_[robot] = reservations_.trajectory(robot);
+    reservations_.stay_in_place(robot);
     staying_.push_back(robot);
   }
 
   void stop_conflicting_robots() {
     for (std::size_t k = 0; k < staying_.size(); ++k) {  // staying_ grows
-      for (const std::size_t crossing : state_.robots_crossing_place(staying_[k])) {
-        if (state_.trajectory(crossing)) stay(crossing);
+      for (const std::size_t crossing : reservations_.robots_crossing_place(staying_[k])) {
+        if (reservations_.trajectory(crossing)) stay(crossing);
         if (earlier_[crossing]) waiting_for_[staying_[k]].push_back(crossing);
       }
     }
@@ -88,9 +89,9 @@ class SafePlanner {
   bool plan_staying_robots(const SearchLimits& limits) {
     const std::vector<std::size_t> robots = staying_;
     for (const std::size_t robot : robots) {
-      if (!state_.trajectory(robot) && try_plan(robot, limits)) resume_those_waiting_for(robot);
+      if (!reservations_.trajectory(robot) && try_plan(robot, limits)) resume_those_waiting_for(robot);
     }
-    std::erase_if(staying_, [&](std::size_t robot) { return state_.trajectory(robot).has_value(); });
+    std::erase_if(staying_, [&](std::size_t robot) { return reservations_.trajectory(robot).has_value(); });
     return staying_.size() < robots.size() && !staying_.empty() && !stop_.met();
   }
 
@@ -103,13 +104,13 @@ class SafePlanner {
       const std::vector<std::size_t> waiting = std::move(waiting_for_[left.back()]);
       left.pop_back();
       for (const std::size_t other : waiting) {
-        if (state_.trajectory(other)) continue;
-        state_.remove(other);
-        if (state_.conflicting_robots(other, *earlier_[other]).empty()) {
-          state_.follow(other, *earlier_[other]);
+        if (reservations_.trajectory(other)) continue;
+        reservations_.remove(other);
+        if (reservations_.conflicting_robots(other, *earlier_[other]).empty()) {
+          reservations_.follow(other, *earlier_[other]);
           left.push_back(other);
         } else {
-          state_.stay_in_place(other);
+          reservations_.stay_in_place(other);
         }
       }
     }
@@ -122,19 +123,20 @@ class SafePlanner {
       result_.cut_off = true;
       return false;
     }
-    state_.remove(robot);
+    reservations_.remove(robot);
     SearchResult result = state_.plan(robot, limits, stop_);
     if (result.trajectory) {
-      state_.follow(robot, std::move(*result.trajectory));
+      reservations_.follow(robot, std::move(*result.trajectory));
       return true;
     }
-    state_.stay_in_place(robot);
+    reservations_.stay_in_place(robot);
     has_no_path_[robot] = result.complete;
     result_.cut_off = result_.cut_off || (!result.complete && stop_.met());
     return false;
   }
 
   PlanState& state_;
+  FleetReservations& reservations_;
   const std::size_t rounds_;
   const StopCondition& stop_;
   ProgressReport& progress_;
@@ -147,7 +149,7 @@ class SafePlanner {
 
 Unplanned explain(PlanState& state, const SafePlan::Staying& staying, BlockingRobots& blocking) {
   const std::size_t robot = staying.robot;
-  const Way& way = state.way_to_goal(robot);
+  const Way& way = state.ways().way_to_goal(robot);
   if (way.none()) return unplanned_without_way(robot, state.instance().motion(robot).radius, way);
   if (!staying.has_no_path) {
     return {robot, Reason::budget_exhausted, "The time budget ended before a way was found.", {}};
@@ -164,23 +166,24 @@ SafePlan make_safe(PlanState& state, const std::vector<std::size_t>& unsolved,
   return SafePlanner(state, effort, stop, progress).run(unsolved, given_up);
 }
 
-bool return_to(PlanState& state, const KeptPlan& kept, const StopCondition& stop) {
+bool return_to(FleetReservations& reservations, const KeptPlan& kept, const StopCondition& stop) {
   const bool is_over = stop.is_over();
   if (is_over) {
-    state.set_without_table(kept.reservations);
+    reservations.set_without_table(kept.reservations);
   } else {
-    state.restore(kept.reservations);
+    reservations.restore(kept.reservations);
   }
   return !is_over;
 }
 
 std::vector<std::size_t> BlockingRobots::find(std::size_t robot) {
   if (stop_.met()) return {};
+  FleetReservations& reservations = state_.reservations();
   const Trajectory alone = state_.plan_alone(robot, stop_);
-  std::vector<std::size_t> blocking = state_.conflicting_robots(robot, alone);
-  if (blocking.empty()) return state_.robots_committed_against(robot, alone);
-  const std::optional<Trajectory> followed = state_.trajectory(robot);
-  state_.remove(robot);
+  std::vector<std::size_t> blocking = reservations.conflicting_robots(robot, alone);
+  if (blocking.empty()) return reservations.robots_committed_against(robot, alone);
+  const std::optional<Trajectory> followed = reservations.trajectory(robot);
+  reservations.remove(robot);
   for (std::size_t k = 0; k < blocking.size() && blocking.size() > 1;) {
     if (stop_.met() || expansions_ > kMostBlockingExpansions) break;
     const std::int64_t before = state_.expansions();
@@ -195,9 +198,9 @@ std::vector<std::size_t> BlockingRobots::find(std::size_t robot) {
     expansions_ += state_.expansions() - before;
   }
   if (followed) {
-    state_.follow(robot, *followed);
+    reservations.follow(robot, *followed);
   } else {
-    state_.stay_in_place(robot);
+    reservations.stay_in_place(robot);
   }
   return blocking;
 }

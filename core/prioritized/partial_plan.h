@@ -35,15 +35,15 @@ SafePlan make_safe(PlanState& state, const std::vector<std::size_t>& unsolved,
                    const std::vector<std::size_t>& given_up, Effort effort, const StopCondition& stop,
                    ProgressReport& progress);
 
-/// A safe plan with its reservations, which a state can return to.
+/// A safe plan with its reservations, to return to.
 struct KeptPlan {
   SafePlan plan;
-  PlanState::Reservations reservations;
+  FleetReservations::Snapshot reservations;
 };
 
-/// Puts the plan back into `state`. Returns whether searches may follow, which is not so when the time is
-/// over.
-bool return_to(PlanState& state, const KeptPlan& kept, const StopCondition& stop);
+/// Returns to the reservations of the plan. Returns whether searches may follow, which is not so when the
+/// time is over.
+bool return_to(FleetReservations& reservations, const KeptPlan& kept, const StopCondition& stop);
 
 struct PartialPlan {
   std::vector<Unplanned> unplanned;  // ascending

@@ -27,6 +27,7 @@ class PlanningAroundKept {
                      const std::vector<bool>& certain, Random& random, const PlanningTime& time,
                      ProgressReport& progress)
       : state_(state),
+        reservations_(state.reservations()),
         movers_(movers),
         is_certain_(certain),
         random_(random),
@@ -34,11 +35,11 @@ class PlanningAroundKept {
         time_(returns_robots() ? PlanningTime::until(after_share(time.all, kShareOfPlanning)) : time),
         progress_(progress),
         stop_(has_time_for_two_parts(time_) ? time_.first_part : time_.keeping),
-        kept_(state.reservations()) {}
+        kept_(reservations_.snapshot()) {}
 
   PrioritizedResult run() {
     for (const std::size_t robot : movers_) {
-      if (!state_.trajectory(robot)) others_.push_back(robot);
+      if (!reservations_.trajectory(robot)) others_.push_back(robot);
     }
     if (others_.empty()) return std::move(result_);
     keep_without_search();
@@ -75,8 +76,8 @@ class PlanningAroundKept {
     for (const std::size_t robot : staying) stays[robot] = true;
     // Bounded: each robot begins to stay once.
     for (std::size_t k = 0; k < staying.size(); ++k) {  // staying grows
-      for (const std::size_t crossing : state_.robots_crossing_place(staying[k])) {
-        if (stays[crossing] || !state_.trajectory(crossing)) continue;
+      for (const std::size_t crossing : reservations_.robots_crossing_place(staying[k])) {
+        if (stays[crossing] || !reservations_.trajectory(crossing)) continue;
         stays[crossing] = true;
         staying.push_back(crossing);
       }
@@ -103,7 +104,7 @@ class PlanningAroundKept {
   PriorityOrder order() {
     PriorityOrder order = initial_order(state_.instance(), movers_, random_);
     std::stable_partition(order.begin(), order.end(),
-                          [&](std::size_t robot) { return state_.trajectory(robot).has_value(); });
+                          [&](std::size_t robot) { return reservations_.trajectory(robot).has_value(); });
     return order;
   }
 
@@ -112,10 +113,10 @@ class PlanningAroundKept {
   bool keep_safe_plan(const std::vector<std::size_t>& unsolved, const std::vector<std::size_t>& given_up) {
     if (in_second_part_ || time_.all.met()) return false;
     in_second_part_ = true;
-    const PlanState::Reservations before = state_.reservations();
+    const FleetReservations::Snapshot before = reservations_.snapshot();
     keep_if_better(make_safe(state_, unsolved, given_up, Effort::brief, time_.keeping, progress_));
     if (best_.plan.staying.empty()) return false;
-    state_.restore(before);
+    reservations_.restore(before);
     stop_ = time_.all;
     return !stop_.met();
   }
@@ -124,19 +125,19 @@ class PlanningAroundKept {
   void keep_if_better(SafePlan plan) {
     result_.cut_off = result_.cut_off || plan.cut_off;
     if (best_.plan.staying.size() <= plan.staying.size() || !plans_all_certain()) return;
-    best_ = KeptPlan{std::move(plan), state_.reservations()};
+    best_ = KeptPlan{std::move(plan), reservations_.snapshot()};
   }
 
   bool plans_all_certain() const {
     return std::all_of(certain_.begin(), certain_.end(),
-                       [&](std::size_t robot) { return state_.trajectory(robot).has_value(); });
+                       [&](std::size_t robot) { return reservations_.trajectory(robot).has_value(); });
   }
 
   /// Plans all robots from the beginning, without regard to earlier trajectories. Returns whether all are
   /// planned.
   bool planned_anew() {
     if (!others_may_help_ || time_.all.met()) return false;
-    for (const std::size_t robot : movers_) state_.remove(robot);
+    for (const std::size_t robot : movers_) reservations_.remove(robot);
     const PrioritizedResult anew =
         plan_prioritized(state_, movers_, random_, PlanningTime::until(time_.all), progress_);
     result_.attempts += anew.attempts;
@@ -151,7 +152,7 @@ class PlanningAroundKept {
 
   /// Returns to the best plan, plans more robots in it while there is time, and tells why the rest stays.
   void explain_best() {
-    if (return_to(state_, best_, end_) && !time_.all.met()) {
+    if (return_to(reservations_, best_, end_) && !time_.all.met()) {
       std::vector<std::size_t> staying;
       staying.reserve(best_.plan.staying.size());
       for (const SafePlan::Staying& robot : best_.plan.staying) staying.push_back(robot.robot);
@@ -159,9 +160,9 @@ class PlanningAroundKept {
       result_.cut_off = result_.cut_off || more.cut_off;
       // The search keeps slightly larger distances than the check that found certain plans to hold.
       if (plans_all_certain()) {
-        best_ = KeptPlan{std::move(more), state_.reservations()};
+        best_ = KeptPlan{std::move(more), reservations_.snapshot()};
       } else {
-        return_to(state_, best_, end_);
+        return_to(reservations_, best_, end_);
       }
     }
     PartialPlan partial = explain(state_, best_.plan, time_.all);
@@ -173,7 +174,7 @@ class PlanningAroundKept {
   std::vector<std::size_t> robots_that_gave_way() const {
     std::vector<std::size_t> robots;
     for (const std::size_t robot : movers_) {
-      const auto& now = state_.trajectory(robot);
+      const auto& now = reservations_.trajectory(robot);
       if (kept_.trajectories[robot] && now && !now->is_previous) robots.push_back(robot);
     }
     return robots;
@@ -185,12 +186,12 @@ class PlanningAroundKept {
 
   /// Gives robots that gave way their first trajectories back where these are free again.
   void return_to_kept() {
-    state_.resume();
+    reservations_.resume();
     return_together();
     for (const std::size_t robot : robots_that_gave_way()) {
       if (end_.met()) return;
       const Trajectory& first = *kept_.trajectories[robot];
-      if (state_.conflicting_robots(robot, first).empty()) state_.follow(robot, first);
+      if (reservations_.conflicting_robots(robot, first).empty()) reservations_.follow(robot, first);
     }
   }
 
@@ -198,11 +199,11 @@ class PlanningAroundKept {
   void return_together() {
     std::vector<std::size_t> changed = robots_that_gave_way();
     while (!changed.empty() && !end_.met()) {
-      const PlanState::Reservations before = state_.reservations();
+      const FleetReservations::Snapshot before = reservations_.snapshot();
       const std::size_t count = changed.size();
       const bool all_planned = returned_together(changed);
       changed = robots_that_gave_way();
-      if (!all_planned) state_.restore(before);
+      if (!all_planned) reservations_.restore(before);
       if (!all_planned || changed.size() >= count) break;
     }
   }
@@ -210,12 +211,12 @@ class PlanningAroundKept {
   /// Plans robots again: those whose first trajectories are free follow them, the others are planned around
   /// these. Returns whether all are planned.
   bool returned_together(const std::vector<std::size_t>& robots) {
-    for (const std::size_t robot : robots) state_.remove(robot);
+    for (const std::size_t robot : robots) reservations_.remove(robot);
     std::vector<std::size_t> left;
     for (const std::size_t robot : robots) {
       const Trajectory& first = *kept_.trajectories[robot];
-      if (state_.conflicting_robots(robot, first).empty()) {
-        state_.follow(robot, first);
+      if (reservations_.conflicting_robots(robot, first).empty()) {
+        reservations_.follow(robot, first);
       } else {
         left.push_back(robot);
       }
@@ -223,22 +224,23 @@ class PlanningAroundKept {
     for (const std::size_t robot : left) {
       SearchResult result = state_.plan(robot, {.thorough = false}, end_);
       if (!result.trajectory) return false;
-      state_.follow(robot, std::move(*result.trajectory));
+      reservations_.follow(robot, std::move(*result.trajectory));
     }
     return true;
   }
 
   PlanState& state_;
+  FleetReservations& reservations_;
   const std::vector<std::size_t>& movers_;
   const std::vector<bool>& is_certain_;  // by robot; may be empty
   Random& random_;
   const StopCondition end_;
   const PlanningTime time_;  // ends when robots that gave way return
   ProgressReport& progress_;
-  StopCondition stop_;                  // ends the repairs
-  const PlanState::Reservations kept_;  // reservations at first
-  std::vector<std::size_t> others_;     // robots without a trajectory at first
-  std::vector<std::size_t> certain_;    // robots that remain planned in every case
+  StopCondition stop_;                      // ends the repairs
+  const FleetReservations::Snapshot kept_;  // reservations at first
+  std::vector<std::size_t> others_;         // robots without a trajectory at first
+  std::vector<std::size_t> certain_;        // robots that remain planned in every case
   KeptPlan best_;
   bool in_second_part_ = false;   // the second part of the time has begun
   bool others_may_help_ = false;  // another order may plan more robots

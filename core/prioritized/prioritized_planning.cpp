@@ -7,6 +7,7 @@
 #include "core/prioritized/lattice_steps.h"
 #include "core/prioritized/orderings.h"
 #include "core/prioritized/partial_plan.h"
+#include "core/prioritized/yielding.h"
 
 namespace fleetplan::core {
 namespace {
@@ -23,19 +24,20 @@ constexpr double kKeepingShare = 0.9;
 /// Plans every robot once, in the given order.
 OrderingResult plan_each_once(PlanState& state, const PriorityOrder& order, const StopCondition& stop,
                               ProgressReport& progress) {
+  FleetReservations& reservations = state.reservations();
   progress.next_attempt();
   const double reserved = state.instance().options().start_safe_interval;
   OrderingResult result;
-  for (const std::size_t robot : order) state.reserve_place(robot, reserved);
+  for (const std::size_t robot : order) reservations.reserve_place(robot, reserved);
   for (const std::size_t robot : order) {
     SearchResult search;
-    state.remove(robot);
+    reservations.remove(robot);
     if (!stop.met()) search = state.plan(robot, {}, stop);
     if (search.trajectory) {
-      state.follow(robot, std::move(*search.trajectory));
+      reservations.follow(robot, std::move(*search.trajectory));
       progress.update();
     } else {
-      state.reserve_place(robot, reserved);
+      reservations.reserve_place(robot, reserved);
       result.unsolved.push_back(robot);
     }
   }
@@ -82,7 +84,7 @@ class PrioritizedPlanning {
                      time_.all);
     }
     if (may_try_again) try_other_orders(ordering.hopeless);
-    return_to(state_, *best_, time_.all);
+    return_to(state_.reservations(), *best_, time_.all);
     PartialPlan partial = explain(state_, best_->plan, time_.all);
     result_.cut_off = result_.cut_off || partial.cut_off;
     result_.unplanned = std::move(partial.unplanned);
@@ -111,17 +113,18 @@ class PrioritizedPlanning {
   bool keep_safe_plan(const std::vector<std::size_t>& unsolved, const std::vector<std::size_t>& given_up) {
     if (best_ || time_.all.met()) return false;
     if (!has_few_robots() && moves_in_steps(given_up)) return false;
-    const PlanState::Reservations before = state_.reservations();
+    const FleetReservations::Snapshot before = state_.reservations().snapshot();
     keep_if_better(unsolved, given_up, Effort::brief, time_.keeping);
     if (best_->plan.staying.empty()) return false;
-    state_.restore(before);
+    state_.reservations().restore(before);
     stop_ = time_.all;
     return !stop_.met();
   }
 
   /// Returns whether it keeps a plan in which all robots but those that are given up move in steps.
   bool moves_in_steps(const std::vector<std::size_t>& given_up) {
-    if (!follow_steps(state_, order_, given_up, random_, time_.keeping, progress_)) return false;
+    if (!follow_steps(state_.reservations(), order_, given_up, random_, time_.keeping, progress_))
+      return false;
     ++result_.attempts;
     keep_if_better({}, given_up, Effort::brief, time_.keeping);
     return true;
@@ -131,7 +134,7 @@ class PrioritizedPlanning {
                       Effort effort, const StopCondition& stop) {
     SafePlan plan = make_safe(state_, unsolved, given_up, effort, stop, progress_);
     if (best_ && best_->plan.staying.size() <= plan.staying.size()) return;
-    best_ = KeptPlan{std::move(plan), state_.reservations()};
+    best_ = KeptPlan{std::move(plan), state_.reservations().snapshot()};
   }
 
   bool has_few_robots() const { return order_.size() <= kFewRobots; }
@@ -139,13 +142,15 @@ class PrioritizedPlanning {
   /// they are asked to in repairs.
   bool restarts() const {
     const auto reordering = state_.instance().options().reordering;
-    return !state_.any_yields() && (reordering == PlanOptions::Reordering::random || has_few_robots());
+    return !any_yields(state_.instance()) &&
+           (reordering == PlanOptions::Reordering::random || has_few_robots());
   }
 
   bool other_orders_may_help(const OrderingResult& ordering) const {
     const auto reordering = state_.instance().options().reordering;
     return reordering == PlanOptions::Reordering::raise_failed &&
-           (!has_few_robots() || state_.any_yields()) && ordering.hopeless.size() < ordering.given_up.size();
+           (!has_few_robots() || any_yields(state_.instance())) &&
+           ordering.hopeless.size() < ordering.given_up.size();
   }
 
   /// Plans in random orders as long as a robot that is not hopeless stays.
@@ -158,8 +163,8 @@ class PrioritizedPlanning {
       });
       if (best_->plan.staying.size() <= hopeless.size()) return;
       if (time_.all.met()) break;
-      for (const std::size_t robot : order) state_.remove(robot);
-      for (const std::size_t robot : hopeless) state_.stay_in_place(robot);
+      for (const std::size_t robot : order) state_.reservations().remove(robot);
+      for (const std::size_t robot : hopeless) state_.reservations().stay_in_place(robot);
       random_.shuffle(order);
       OrderingResult ordering = repair_once(state_, order, random_, time_.all, progress_);
       result_.attempts += ordering.attempts;

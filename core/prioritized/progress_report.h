@@ -3,17 +3,18 @@
 #include <cstddef>
 
 #include "core/model/progress.h"
-#include "core/prioritized/plan_state.h"
+#include "core/prioritized/fleet_reservations.h"
 
 namespace fleetplan::core {
 
 /// Reports the progress of planning to an observer, if there is one.
 class ProgressReport {
  public:
-  /// Reports the robots that follow a trajectory in `state` as planned. `observer` may be null.
-  ProgressReport(const PlanState& state, Observer* observer) : state_(state), observer_(observer) {
-    for (std::size_t robot = 0; robot < state.instance().size(); ++robot) {
-      if (!state.instance().robot(robot).goal) ++parked_;
+  /// Reports the robots that follow a trajectory as planned. `observer` may be null.
+  ProgressReport(const FleetReservations& reservations, Observer* observer)
+      : reservations_(reservations), observer_(observer) {
+    for (std::size_t robot = 0; robot < reservations.instance().size(); ++robot) {
+      if (!reservations.instance().robot(robot).goal) ++parked_;
     }
   }
 
@@ -36,11 +37,11 @@ class ProgressReport {
 
  private:
   void notify() {
-    progress_.planned = parked_ + state_.planned_count();
+    progress_.planned = parked_ + reservations_.planned_count();
     observer_->progressed(progress_);
   }
 
-  const PlanState& state_;
+  const FleetReservations& reservations_;
   Observer* observer_;
   std::size_t parked_ = 0;
   Progress progress_;

@@ -10,6 +10,7 @@
 #include "core/prioritized/ejection_search.h"
 #include "core/prioritized/lattice_steps.h"
 #include "core/prioritized/orderings.h"
+#include "core/prioritized/yielding.h"
 
 namespace fleetplan::core {
 namespace {
@@ -74,6 +75,8 @@ class Repair {
   Repair(PlanState& state, PriorityOrder order, Random& random, const StopCondition& stop,
          ProgressReport& progress, const OnStop& on_stop)
       : state_(state),
+        reservations_(state.reservations()),
+        any_yields_(any_yields(state.instance())),
         order_(std::move(order)),
         random_(random),
         stop_(stop),
@@ -96,7 +99,7 @@ class Repair {
 
   void postpone_those_without_trajectory() {
     for (const std::size_t robot : order_) {
-      if (!state_.trajectory(robot)) postpone(robot);
+      if (!reservations_.trajectory(robot)) postpone(robot);
     }
   }
 
@@ -110,11 +113,11 @@ class Repair {
       progress_.update();
       const std::size_t robot = pending_.begin()->second;
       pending_.erase(pending_.begin());
-      state_.remove(robot);
+      reservations_.remove(robot);
       SearchResult result = plan_quickly(robot);
       if (is_held_up(robot, result) && passes_yielding(robot, result)) continue;
       if (result.trajectory) {
-        state_.follow(robot, std::move(*result.trajectory));
+        reservations_.follow(robot, std::move(*result.trajectory));
         continue;
       }
       if (has_failed(robot, result)) {
@@ -152,7 +155,7 @@ class Repair {
   /// Returns whether all robots but the hopeless ones have new trajectories; if not, nothing has changed.
   bool plans_all_in_steps() {
     tried_steps_ = true;
-    if (!follow_steps(state_, order_, result_.hopeless, random_, stop_, progress_)) return false;
+    if (!follow_steps(reservations_, order_, result_.hopeless, random_, stop_, progress_)) return false;
     ++result_.attempts;
     pending_.clear();
     result_.given_up = result_.hopeless;
@@ -168,14 +171,14 @@ class Repair {
   }
 
   void postpone(std::size_t robot) {
-    state_.reserve_place(robot, state_.instance().options().start_safe_interval);
+    reservations_.reserve_place(robot, state_.instance().options().start_safe_interval);
     pending_.insert({rank_[robot], robot});
   }
 
   void follow_and_postpone_conflicting(std::size_t robot, Trajectory trajectory) {
-    std::vector<std::size_t> conflicting = state_.conflicting_robots(robot, trajectory);
-    state_.follow(robot, std::move(trajectory));
-    std::erase_if(conflicting, [&](std::size_t other) { return !state_.trajectory(other); });
+    std::vector<std::size_t> conflicting = reservations_.conflicting_robots(robot, trajectory);
+    reservations_.follow(robot, std::move(trajectory));
+    std::erase_if(conflicting, [&](std::size_t other) { return !reservations_.trajectory(other); });
     if (ejects(robot)) {  // the ejected robots are planned next
       for (const std::size_t other : conflicting) rank_[other] = --highest_rank_;
     } else if (!conflicting.empty() && failures_[robot] > kFailuresBeforeShuffle) {
@@ -224,10 +227,10 @@ class Repair {
 
   /// Whether robots that yield may be what keeps this one from its goals, or makes it late.
   bool is_held_up(std::size_t robot, const SearchResult& result) {
-    if (!state_.any_yields() || asks_[robot] >= kMostAsksForRobot) return false;
+    if (!any_yields_ || asks_[robot] >= kMostAsksForRobot) return false;
     if (!result.trajectory) return has_failed(robot, result);
     if (result.trajectory->gains_nothing) return true;
-    const double in_time = state_.estimated_alone(robot, stop_) + cost_of_making_way(robot);
+    const double in_time = state_.ways().estimated_alone(robot, stop_) + cost_of_making_way(robot);
     return result.trajectory->cost > in_time;
   }
 
@@ -254,15 +257,15 @@ class Repair {
     ++asks_[robot];
     SearchLimits limits = quick_search_of(robot);
     limits.bound = most_cost(robot, in_place);
-    SearchResult result = state_.plan_past_yielding(robot, limits, stop_);
+    SearchResult result = plan_past_yielding(state_, robot, limits, stop_);
     if (!result.trajectory || result.trajectory->gains_nothing) return false;
-    const std::vector<std::size_t> asked = state_.conflicting_robots(robot, *result.trajectory);
+    const std::vector<std::size_t> asked = reservations_.conflicting_robots(robot, *result.trajectory);
     const bool needs = limits.bound == kForever;
     if (!needs && !is_worth(in_place.trajectory->cost - result.trajectory->cost, asked)) return false;
     if (comes_after(robot, asked, limits.bound)) return true;
-    state_.follow(robot, std::move(*result.trajectory));
+    reservations_.follow(robot, std::move(*result.trajectory));
     for (const std::size_t other : asked) {
-      if (!state_.trajectory(other)) continue;
+      if (!reservations_.trajectory(other)) continue;
       if (state_.instance().robot(other).is_idle()) rank_[other] = ++lowest_rank_;
       postpone(other);
     }
@@ -274,19 +277,19 @@ class Repair {
   bool comes_after(std::size_t robot, const std::vector<std::size_t>& others, double most_cost) {
     std::vector<std::pair<std::size_t, Trajectory>> before;
     for (const std::size_t other : others) {
-      if (!state_.trajectory(other) || state_.instance().robot(other).is_idle()) continue;
-      SearchResult leaving = state_.plan_leaving_for(robot, other, quick_search_of(other), stop_);
+      if (!reservations_.trajectory(other) || state_.instance().robot(other).is_idle()) continue;
+      SearchResult leaving = plan_leaving_for(state_, robot, other, quick_search_of(other), stop_);
       if (!leaving.trajectory) continue;
-      before.emplace_back(other, *state_.trajectory(other));
-      state_.follow(other, std::move(*leaving.trajectory));
+      before.emplace_back(other, *reservations_.trajectory(other));
+      reservations_.follow(other, std::move(*leaving.trajectory));
     }
     if (before.empty()) return false;
     SearchResult result = plan_quickly(robot);
     if (result.trajectory && !result.trajectory->gains_nothing && result.trajectory->cost < most_cost) {
-      state_.follow(robot, std::move(*result.trajectory));
+      reservations_.follow(robot, std::move(*result.trajectory));
       return true;
     }
-    for (auto& [other, trajectory] : before) state_.follow(other, std::move(trajectory));
+    for (auto& [other, trajectory] : before) reservations_.follow(other, std::move(trajectory));
     return false;
   }
 
@@ -297,7 +300,7 @@ class Repair {
     progress_.next_attempt();
     if (++failures_[robot] > kMaxFailuresOfRobot) return {};
     const auto& whole = state_.whole_way_of();
-    if (whole && *whole != robot && state_.trajectory(*whole)) {
+    if (whole && *whole != robot && reservations_.trajectory(*whole)) {
       keeps_its_way_ = *whole;
       SearchResult result = make_way_for(robot);
       keeps_its_way_.reset();
@@ -343,7 +346,8 @@ class Repair {
   std::vector<std::size_t> planned_robots(Condition&& condition) const {
     std::vector<std::size_t> found;
     for (const std::size_t other : order_) {
-      if (state_.trajectory(other) && other != keeps_its_way_ && condition(other)) found.push_back(other);
+      if (reservations_.trajectory(other) && other != keeps_its_way_ && condition(other))
+        found.push_back(other);
     }
     return found;
   }
@@ -355,7 +359,7 @@ class Repair {
     for (; extra > 0; --extra) {
       const std::size_t other = order_[random_.below(order_.size())];
       const bool known = std::find(robots.begin(), robots.end(), other) != robots.end();
-      if (!known && other != robot && state_.trajectory(other)) robots.push_back(other);
+      if (!known && other != robot && reservations_.trajectory(other)) robots.push_back(other);
     }
     for (std::size_t i = robots.size(); i > 1; --i) {
       std::swap(rank_[robots[i - 1]], rank_[robots[random_.below(i)]]);
@@ -364,9 +368,9 @@ class Repair {
   }
 
   void give_up(std::size_t robot) {
-    state_.stay_in_place(robot);
-    for (const std::size_t other : state_.robots_crossing_place(robot)) {
-      if (state_.trajectory(other)) postpone(other);
+    reservations_.stay_in_place(robot);
+    for (const std::size_t other : reservations_.robots_crossing_place(robot)) {
+      if (reservations_.trajectory(other)) postpone(other);
     }
     if (state_.instance().robot(robot).is_idle()) return;  // it need not move
     const bool others_may_move = result_.hopeless.size() < result_.given_up.size();
@@ -375,6 +379,8 @@ class Repair {
   }
 
   PlanState& state_;
+  FleetReservations& reservations_;
+  const bool any_yields_;
   const PriorityOrder order_;
   Random& random_;
   const StopCondition& stop_;
@@ -413,13 +419,14 @@ constexpr double kShareByTime = 0.5;
 
 /// The sum of the shares of all robots in the objective; none if one of them has no trajectory, or if it is
 /// no sum.
-std::optional<double> objective_of(const PlanState& state, const PriorityOrder& order) {
-  const PlanOptions::Objective objective = state.instance().options().objective;
+std::optional<double> objective_of(const FleetReservations& reservations, const PriorityOrder& order) {
+  const Instance& instance = reservations.instance();
+  const PlanOptions::Objective objective = instance.options().objective;
   if (objective == PlanOptions::Objective::makespan) return std::nullopt;
   double sum = 0.0;
   for (const std::size_t robot : order) {
-    if (!state.trajectory(robot)) return std::nullopt;
-    sum += share_of(state.instance().robot(robot), objective, *state.trajectory(robot));
+    if (!reservations.trajectory(robot)) return std::nullopt;
+    sum += share_of(instance.robot(robot), objective, *reservations.trajectory(robot));
   }
   return sum;
 }
@@ -428,17 +435,18 @@ std::optional<double> objective_of(const PlanState& state, const PriorityOrder& 
 /// small fast robots do not wait for large slow ones. Improvement begins with the better one of the two.
 void plan_by_time_if_better(PlanState& state, const PriorityOrder& order, OrderingResult& result,
                             Random& random, const StopCondition& stop, ProgressReport& progress) {
-  const std::optional<double> objective = objective_of(state, order);
+  FleetReservations& reservations = state.reservations();
+  const std::optional<double> objective = objective_of(reservations, order);
   if (!objective || stop.met()) return;
-  const PlanState::Reservations before = state.reservations();
+  const FleetReservations::Snapshot before = reservations.snapshot();
   const StopCondition part = after_share(stop, kShareByTime);
-  for (const std::size_t robot : order) state.remove(robot);
+  for (const std::size_t robot : order) reservations.remove(robot);
   const auto other =
       repair(state, order_by_time(state.instance(), order), kMaxFailuresByTime, random, part, progress);
   result.attempts += other ? other->attempts : kMaxFailuresByTime;
   result.cut_off = part.met();
-  const std::optional<double> others = objective_of(state, order);
-  if (!other || !others || *others >= *objective) state.restore(before);
+  const std::optional<double> others = objective_of(reservations, order);
+  if (!other || !others || *others >= *objective) reservations.restore(before);
 }
 
 }  // namespace

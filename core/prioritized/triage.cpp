@@ -103,7 +103,8 @@ std::vector<std::size_t> DiskIndex::overlapping(std::size_t robot, At at, const 
 class Triage {
  public:
   Triage(PlanState& state, const StopCondition& stop, const std::vector<bool>& kept)
-      : state_(state),
+      : reservations_(state.reservations()),
+        ways_(state.ways()),
         instance_(state.instance()),
         stop_(stop),
         kept_(kept),
@@ -139,7 +140,7 @@ class Triage {
     }
   }
   bool may_leave(std::size_t robot) {
-    const bool is_free = instance_.fits_at_start(robot) || state_.can_leave_place(robot, stop_);
+    const bool is_free = instance_.fits_at_start(robot) || ways_.can_leave_place(robot, stop_);
     return is_free && !instance_.contacts().too_many(robot);
   }
   bool is_kept(std::size_t robot) const { return !kept_.empty() && kept_[robot]; }
@@ -147,7 +148,7 @@ class Triage {
   const Position& place(std::size_t robot) const { return instance_.itinerary(robot).pose.position; }
   void stay(std::size_t robot) {
     stays_[robot] = true;
-    state_.stay_in_place(robot);
+    reservations_.stay_in_place(robot);
   }
   void give_up(std::size_t robot, Reason reason, const char* detail,
                std::vector<std::size_t> blocked_by = {}) {
@@ -166,7 +167,7 @@ class Triage {
   }
 
   void check_start(std::size_t i) {
-    if (!instance_.fits_at_start(i) && !state_.can_leave_place(i, stop_)) {
+    if (!instance_.fits_at_start(i) && !ways_.can_leave_place(i, stop_)) {
       return give_up(
           i, Reason::start_blocked,
           "The inflated robot does not fit between the obstacles at its start, and no straight move "
@@ -195,11 +196,11 @@ class Triage {
   }
 
   void check_path(std::size_t i) {
-    const std::int64_t left = kMaxMapExpansions - state_.map_expansions();
+    const std::int64_t left = kMaxMapExpansions - ways_.map_expansions();
     if (left <= 0) return;
-    const Way& way = state_.way_to_goal(i, left, stop_);
+    const Way& way = ways_.way_to_goal(i, left, stop_);
     if (way.none()) return give_up_without_way(i, way);
-    if (way.kind == Way::Kind::on_lattice && !stop_.met() && state_.takes_too_long(i, stop_)) {
+    if (way.kind == Way::Kind::on_lattice && !stop_.met() && ways_.takes_too_long(i, stop_)) {
       give_up(
           i, Reason::goal_unreachable,
           "The way to the goal takes longer than the longest plan: 1e8 s, or 1e9 m at the robot's speed.");
@@ -238,7 +239,8 @@ class Triage {
     }
   }
 
-  PlanState& state_;
+  FleetReservations& reservations_;
+  StaticWays& ways_;
   const Instance& instance_;
   const StopCondition& stop_;
   const std::vector<bool>& kept_;  // by robot; may be empty
@@ -336,8 +338,8 @@ class ZonesInTheWay {
     if (alone == nullptr) return true;
     const Instance instance(*alone, options_, stop_);
     PlanState state(instance);
-    if (!instance.fits_at_start(0) && !state.can_leave_place(0, stop_)) return false;
-    return instance.fits_at_goal(0) && !state.way_to_goal(0, kMostWayExpansions, stop_).none();
+    if (!instance.fits_at_start(0) && !state.ways().can_leave_place(0, stop_)) return false;
+    return instance.fits_at_goal(0) && !state.ways().way_to_goal(0, kMostWayExpansions, stop_).none();
   }
 
   const Problem& problem_;

@@ -11,8 +11,8 @@
 #include "core/instance/instance.h"
 #include "core/model/itinerary.h"
 #include "core/model/loads.h"
+#include "core/prioritized/fleet_reservations.h"
 #include "core/prioritized/orderings.h"
-#include "core/prioritized/plan_state.h"
 #include "core/runtime/random.h"
 #include "core/verify/check_rules.h"
 #include "core/verify/verify.h"
@@ -216,27 +216,28 @@ KeptPlans keep_if_others_stay(const Problem& problem, const PlanOptions& options
   return PlansThatHold(problem, options, stop, LeftOut::stay, previous.kept).run();
 }
 
-std::size_t follow_kept_plans(PlanState& state, const KeptPlans& previous, const KeptPlans& certain) {
+std::size_t follow_kept_plans(FleetReservations& reservations, const KeptPlans& previous,
+                              const KeptPlans& certain) {
   std::size_t followed = 0;
   for (std::size_t robot = 0; robot < previous.kept.size(); ++robot) {
     if (!previous.kept[robot]) continue;
-    Trajectory trajectory = previous_trajectory(state.instance().robot(robot));
+    Trajectory trajectory = previous_trajectory(reservations.instance().robot(robot));
     // The checker has accepted all kept plans together, and against what all robots are committed to.
     const auto is_kept = [&](std::size_t other) { return bool(previous.kept[other]); };
-    const std::vector<std::size_t> others = state.conflicting_robots(robot, trajectory);
+    const std::vector<std::size_t> others = reservations.conflicting_robots(robot, trajectory);
     if (!certain.contains(robot) && !std::all_of(others.begin(), others.end(), is_kept)) continue;
-    state.follow(robot, std::move(trajectory));
+    reservations.follow(robot, std::move(trajectory));
     ++followed;
   }
   return followed;
 }
 
-void finish_with_kept_plans(PlanState& state, const std::vector<std::size_t>& movers) {
-  PlanState::Reservations reservations = state.reservations();
+void finish_with_kept_plans(FleetReservations& reservations, const std::vector<std::size_t>& movers) {
+  FleetReservations::Snapshot wanted = reservations.snapshot();
   for (const std::size_t robot : movers) {
-    reservations.trajectories[robot] = previous_trajectory(state.instance().robot(robot));
+    wanted.trajectories[robot] = previous_trajectory(reservations.instance().robot(robot));
   }
-  state.set_without_table(reservations);
+  reservations.set_without_table(std::move(wanted));
 }
 
 namespace {

@@ -16,7 +16,7 @@
 
 namespace fleetplan::core {
 
-class PlanState;
+class FleetReservations;
 
 /// The most time after the budget for the check of previous plans, which decides whether they are kept. It
 /// takes about 10 ms for 500 robots; the limit is for plans in which many robots meet in one small area, and
@@ -58,14 +58,14 @@ KeptPlans keep_previous_plans(const Problem& problem, const PlanOptions& options
 KeptPlans keep_if_others_stay(const Problem& problem, const PlanOptions& options, const KeptPlans& previous,
                               const StopCondition& stop);
 
-/// Lets the robots whose plans are kept follow them in `state`, except those whose plans conflict with a
-/// robot that stays. Robots with `certain` plans, which hold if all others stay, follow them in any case.
-/// Returns the number of robots that follow a plan.
-std::size_t follow_kept_plans(PlanState& state, const KeptPlans& previous, const KeptPlans& certain);
+/// Lets the robots whose plans are kept follow them, except those whose plans conflict with a robot that
+/// stays. Robots with `certain` plans, which hold if all others stay, follow them in any case. Returns the
+/// number of robots that follow a plan.
+std::size_t follow_kept_plans(FleetReservations& reservations, const KeptPlans& previous,
+                              const KeptPlans& certain);
 
-/// Lets all of `movers`, whose plans are kept, follow them in `state`. Takes hardly any time, and no search
-/// may follow.
-void finish_with_kept_plans(PlanState& state, const std::vector<std::size_t>& movers);
+/// Lets all of `movers`, whose plans are kept, follow them. Takes hardly any time, and no search may follow.
+void finish_with_kept_plans(FleetReservations& reservations, const std::vector<std::size_t>& movers);
 
 /// Returns the plan for which no search is needed: parked robots, and robots whose previous plans hold while
 /// all others stay at their starts or committed ends. The others are unplanned for lack of a budget, with

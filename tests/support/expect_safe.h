@@ -13,7 +13,7 @@
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"
 #include "core/prioritized/collect_plan.h"
-#include "core/prioritized/plan_state.h"
+#include "core/prioritized/fleet_reservations.h"
 #include "core/verify/verify.h"
 #include "tests/support/plain_check.h"
 #include "tests/support/summary.h"
@@ -97,20 +97,20 @@ inline void expect_safe(const core::Problem& problem, const core::Plan& plan, do
 }
 
 /// Returns the current trajectories as plans. Robots without a trajectory have none.
-inline std::vector<core::RobotPlan> plans_of(const core::PlanState& state) {
+inline std::vector<core::RobotPlan> plans_of(const core::FleetReservations& reservations) {
   std::vector<core::RobotPlan> plans;
-  for (std::size_t i = 0; i < state.instance().size(); ++i) {
-    const auto& trajectory = state.trajectory(i);
+  for (std::size_t i = 0; i < reservations.instance().size(); ++i) {
+    const auto& trajectory = reservations.trajectory(i);
     if (!trajectory) continue;
-    plans.push_back(
-        {i, trajectory->cost,
-         core::to_actions(state.instance().robot(i), *trajectory, state.instance().drive_zones(i))});
+    plans.push_back({i, trajectory->cost,
+                     core::to_actions(reservations.instance().robot(i), *trajectory,
+                                      reservations.instance().drive_zones(i))});
   }
   return plans;
 }
 
-inline void expect_safe(const core::PlanState& state) {
-  expect_safe(state.instance().problem(), plans_of(state));
+inline void expect_safe(const core::FleetReservations& reservations) {
+  expect_safe(reservations.instance().problem(), plans_of(reservations));
 }
 
 }  // namespace fleetplan::support

@@ -14,8 +14,8 @@ struct TwoRows : Planning {
   TwoRows()
       : Planning(OccupancyGrid(9, 9, 1.0),
                  {robot_at(0.5, 2.5).to(8.5, 2.5), robot_at(0.5, 6.5).to(8.5, 6.5)}) {
-    state.follow(0, row(2.5, 10.0));
-    state.follow(1, row(6.5, 10.0));
+    reservations.follow(0, row(2.5, 10.0));
+    reservations.follow(1, row(6.5, 10.0));
   }
 
   static Trajectory row(double y, double departure) { return through({{0.5, y}, {8.5, y}}, departure); }

@@ -23,9 +23,9 @@ struct Value {
   double makespan = 0.0;
 };
 
-Value value_of(const PlanState& state) {
+Value value_of(const FleetReservations& reservations) {
   Value value;
-  for (const RobotPlan& plan : support::plans_of(state)) {
+  for (const RobotPlan& plan : support::plans_of(reservations)) {
     value.flowtime += plan.cost;
     value.makespan = std::max(value.makespan, plan.cost);
   }
@@ -67,22 +67,22 @@ std::vector<Robot> roundabout() {
 TEST(LargeNeighbourhoodSearch, LowersTheFlowtime) {
   Planning p(OccupancyGrid(10, 10, 1.0), roundabout(), iterations(60));
   const auto movers = plan_first_solution(p);
-  const Value before = value_of(p.state);
+  const Value before = value_of(p.reservations);
   const LnsResult result =
       large_neighbourhood_search(p.state, movers, bounds_of(p), p.random, p.callers_thread, p.never);
   EXPECT_GT(result.improvements, 0);
   EXPECT_FALSE(result.cut_off);
-  EXPECT_LT(value_of(p.state).flowtime, before.flowtime);
-  expect_safe(p.state);
+  EXPECT_LT(value_of(p.reservations).flowtime, before.flowtime);
+  expect_safe(p.reservations);
 }
 
 TEST(LargeNeighbourhoodSearch, LowersTheMakespanWithThatObjective) {
   Planning p(OccupancyGrid(10, 10, 1.0), roundabout(), iterations(60, Objective::makespan));
   const auto movers = plan_first_solution(p);
-  const Value before = value_of(p.state);
+  const Value before = value_of(p.reservations);
   large_neighbourhood_search(p.state, movers, bounds_of(p), p.random, p.callers_thread, p.never);
-  EXPECT_LT(value_of(p.state).makespan, before.makespan);
-  expect_safe(p.state);
+  EXPECT_LT(value_of(p.reservations).makespan, before.makespan);
+  expect_safe(p.reservations);
 }
 
 /// Two robots that meet head-on in a corridor with a bay for either.
@@ -100,8 +100,8 @@ std::pair<double, double> improved_costs(std::vector<Robot> robots, Objective ob
   Planning p(corridor_with_bays(), std::move(robots), iterations(60, objective));
   const auto movers = plan_first_solution(p);
   large_neighbourhood_search(p.state, movers, bounds_of(p), p.random, p.callers_thread, p.never);
-  expect_safe(p.state);
-  return {p.state.trajectory(0)->cost, p.state.trajectory(1)->cost};
+  expect_safe(p.reservations);
+  return {p.reservations.trajectory(0)->cost, p.reservations.trajectory(1)->cost};
 }
 
 TEST(LargeNeighbourhoodSearch, LetsTheHeavyRobotPass) {
@@ -126,11 +126,11 @@ TEST(LargeNeighbourhoodSearch, LetsTheRobotPassThatIsDueWithThatObjective) {
 TEST(LargeNeighbourhoodSearch, ChangesNothingWithoutIterations) {
   Planning p(OccupancyGrid(10, 10, 1.0), roundabout(), iterations(0));
   const auto movers = plan_first_solution(p);
-  const double before = value_of(p.state).flowtime;
+  const double before = value_of(p.reservations).flowtime;
   EXPECT_EQ(large_neighbourhood_search(p.state, movers, bounds_of(p), p.random, p.callers_thread, p.never)
                 .improvements,
             0);
-  EXPECT_EQ(value_of(p.state).flowtime, before);
+  EXPECT_EQ(value_of(p.reservations).flowtime, before);
 }
 
 TEST(LargeNeighbourhoodSearch, ReturnsTheSamePlanForTheSameSeed) {
@@ -139,7 +139,7 @@ TEST(LargeNeighbourhoodSearch, ReturnsTheSamePlanForTheSameSeed) {
     const auto movers = plan_first_solution(p);
     large_neighbourhood_search(p.state, movers, bounds_of(p), p.random, p.callers_thread, p.never);
     Plan plan;
-    plan.plans = support::plans_of(p.state);
+    plan.plans = support::plans_of(p.reservations);
     return support::exact_text(plan);
   };
   EXPECT_EQ(run(), run());
@@ -168,11 +168,11 @@ TEST(LargeNeighbourhoodSearch, EndsAtOnceWithoutTrajectories) {
 TEST(LargeNeighbourhoodSearch, ChangesNothingWhenStopped) {
   Planning p(OccupancyGrid(10, 10, 1.0), roundabout(), iterations(1000));
   const auto movers = plan_first_solution(p);
-  const double before = value_of(p.state).flowtime;
+  const double before = value_of(p.reservations).flowtime;
   const LnsResult result =
       large_neighbourhood_search(p.state, movers, bounds_of(p), p.random, p.callers_thread, met());
   EXPECT_TRUE(result.cut_off);
-  EXPECT_EQ(value_of(p.state).flowtime, before);
+  EXPECT_EQ(value_of(p.reservations).flowtime, before);
 }
 
 class LnsRandomFleets : public testing::TestWithParam<Objective> {};
@@ -210,18 +210,18 @@ TEST_P(LnsRandomFleets, NeverMakesAPlanWorseOrUnsafe) {
     support::Dice dice(seed);
     Planning p(support::random_problem(dice, 8), iterations(15, GetParam()));
     const auto movers = plan_first_solution(p);
-    const std::size_t planned = support::plans_of(p.state).size();
-    const Value before = value_of(p.state);
+    const std::size_t planned = support::plans_of(p.reservations).size();
+    const Value before = value_of(p.reservations);
     const LnsResult result =
         large_neighbourhood_search(p.state, movers, bounds_of(p), p.random, p.callers_thread, p.never);
-    const Value after = value_of(p.state);
+    const Value after = value_of(p.reservations);
     const bool by_makespan = GetParam() == Objective::makespan;
     ASSERT_LE(by_makespan ? after.makespan : after.flowtime, by_makespan ? before.makespan : before.flowtime);
     if (result.improvements == 0) {
       ASSERT_EQ(after.flowtime, before.flowtime);
     }
-    ASSERT_EQ(support::plans_of(p.state).size(), planned) << "every robot keeps a plan";
-    expect_safe(p.state);
+    ASSERT_EQ(support::plans_of(p.reservations).size(), planned) << "every robot keeps a plan";
+    expect_safe(p.reservations);
   }
 }
 

@@ -21,11 +21,11 @@ struct Hall : Planning {
             OccupancyGrid(21, 21, 1.0),
             {robot_at(0.5, 2.5).to(8.5, 2.5), robot_at(4.5, 2.5).to(4.5, 2.5),
              robot_at(8.5, 0.5).to(10.5, 2.5), robot_at(18.5, 20.5).to(20.5, 20.5), robot_at(0.5, 20.5)}) {
-    state.follow(0, through({{0.5, 2.5}, {4.5, 4.5}, {8.5, 2.5}}));
-    state.follow(1, through({{4.5, 2.5}}));
-    state.follow(2, through({{8.5, 0.5}, {10.5, 2.5}}));
-    state.follow(3, through({{18.5, 20.5}, {20.5, 20.5}}));
-    state.stay_in_place(4);
+    reservations.follow(0, through({{0.5, 2.5}, {4.5, 4.5}, {8.5, 2.5}}));
+    reservations.follow(1, through({{4.5, 2.5}}));
+    reservations.follow(2, through({{8.5, 0.5}, {10.5, 2.5}}));
+    reservations.follow(3, through({{18.5, 20.5}, {20.5, 20.5}}));
+    reservations.stay_in_place(4);
   }
 
   std::vector<std::size_t> select(std::size_t first, Neighbourhood kind, std::size_t size) {
@@ -75,9 +75,9 @@ struct Crossing : Planning {
                  {robot_at(0.5, 4.5).to(8.5, 4.5), robot_at(4.5, 0.5, kUp).to(4.5, 8.5),
                   robot_at(8.5, 8.5, -kUp).to(8.5, 7.5)}),
         bounds(instance, movers(), std::vector<double>(instance.size(), kForever), never) {
-    state.follow(0, through({{0.5, 4.5}, {8.5, 4.5}}, 6.0));
-    state.follow(1, through({{4.5, 0.5}, {4.5, 8.5}}, 1.0));
-    state.follow(2, through({{8.5, 8.5}, {8.5, 7.5}}));
+    reservations.follow(0, through({{0.5, 4.5}, {8.5, 4.5}}, 6.0));
+    reservations.follow(1, through({{4.5, 0.5}, {4.5, 8.5}}, 1.0));
+    reservations.follow(2, through({{8.5, 8.5}, {8.5, 7.5}}));
   }
 
   NeighbourhoodResult plan_again(const std::vector<std::size_t>& robots,
@@ -86,13 +86,13 @@ struct Crossing : Planning {
   }
   double sum() const {
     double sum = 0.0;
-    for (const RobotPlan& plan : plans_of(state)) sum += plan.cost;
+    for (const RobotPlan& plan : plans_of(reservations)) sum += plan.cost;
     return sum;
   }
 
   void apply(Change change) {
-    for (const Change::Part& part : change.parts) state.remove(part.robot);
-    for (Change::Part& part : change.parts) state.follow(part.robot, std::move(part.trajectory));
+    for (const Change::Part& part : change.parts) reservations.remove(part.robot);
+    for (Change::Part& part : change.parts) reservations.follow(part.robot, std::move(part.trajectory));
   }
 
   TautPathBounds bounds;
@@ -109,7 +109,7 @@ TEST(PlanNeighbourhood, MakesOneRobotCheaper) {
   EXPECT_EQ(p.sum(), before) << "the state is unchanged";
   p.apply(std::move(*result.change));
   EXPECT_NEAR(p.sum(), before - gain, 1e-9);
-  support::expect_safe(p.state);
+  support::expect_safe(p.reservations);
 }
 
 TEST(PlanNeighbourhood, ChangesOnlyConflictingRobots) {
@@ -122,7 +122,7 @@ TEST(PlanNeighbourhood, ChangesOnlyConflictingRobots) {
   const double gain = result.change->gain;
   p.apply(std::move(*result.change));
   EXPECT_NEAR(p.sum(), before - gain, 1e-9);
-  support::expect_safe(p.state);
+  support::expect_safe(p.reservations);
 }
 
 TEST(PlanNeighbourhood, FindsNoChangeForARobotAtItsLowerBound) {
@@ -152,8 +152,8 @@ TEST(PlanNeighbourhood, AcceptsALossUpToTheLimit) {
                                  "####.####"}),
              {robot_at(3.2, 4.5).speeds(0.25, 1.5).to(8.5, 4.5), robot_at(4.5, 0.5, kUp).to(4.5, 8.5)});
   const TautPathBounds bounds(p.instance, p.movers(), std::vector<double>(2, kForever), p.never);
-  p.state.follow(1, p.state.plan_alone(1, p.never));
-  p.state.follow(0, *p.state.plan(0, kExact, p.never).trajectory);
+  p.reservations.follow(1, p.state.plan_alone(1, p.never));
+  p.reservations.follow(0, *p.state.plan(0, kExact, p.never).trajectory);
   NeighbourhoodOptions options;
   options.min_gain_share = 0.9;
   EXPECT_FALSE(plan_neighbourhood(p.state, {0, 1}, bounds, options, p.never).change);
@@ -180,14 +180,14 @@ TEST(PlanNeighbourhood, LeavesTheStateUnchanged) {
   Crossing p;
   const auto text = [&] {
     Plan plan;
-    plan.plans = plans_of(p.state);
+    plan.plans = plans_of(p.reservations);
     return exact_text(plan);
   };
   const std::string before = text();
   p.plan_again({0, 1, 2});
   plan_neighbourhood(p.state, {0, 1, 2}, p.bounds, {}, met());
   EXPECT_EQ(text(), before);
-  EXPECT_EQ(p.state.conflicting_robots(2, through({{4.5, 0.5}, {4.5, 8.5}}, 1.0)),
+  EXPECT_EQ(p.reservations.conflicting_robots(2, through({{4.5, 0.5}, {4.5, 8.5}}, 1.0)),
             std::vector<std::size_t>{1})
       << "reservations as well";
 }

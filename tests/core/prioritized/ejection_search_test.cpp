@@ -24,13 +24,13 @@ Planning two_gates() {
 Robots ejected_for_robot_0(Planning& p, EjectionSearch& ejection, const Robots& planned,
                            const std::vector<int>& failures) {
   const SearchResult result = ejection.plan(0, planned, failures);
-  return result.trajectory ? p.state.conflicting_robots(0, *result.trajectory) : Robots{0};
+  return result.trajectory ? p.reservations.conflicting_robots(0, *result.trajectory) : Robots{0};
 }
 
 TEST(EjectionSearch, EjectsTheRobotThatFailedLessOften) {
   Planning p = two_gates();
   for (const std::size_t robot : {1u, 2u}) {
-    p.state.follow(robot, through({p.instance.robot(robot).start.position}));
+    p.reservations.follow(robot, through({p.instance.robot(robot).start.position}));
   }
   EjectionSearch ejection(p.state, p.random, p.never);
   EXPECT_EQ(ejected_for_robot_0(p, ejection, {1, 2}, {1, 0, 3}), Robots{1});
@@ -47,29 +47,30 @@ TEST(EjectionSearch, EjectsNoRobotThatCanBeSpared) {
        robot_at(3.5, 1.5).to(3.5, 1.5), robot_at(4.5, 1.5).to(4.5, 1.5)});
   const Robots others{1, 2, 3, 4};
   for (const std::size_t robot : others) {
-    p.state.follow(robot, through({p.instance.robot(robot).start.position}));
+    p.reservations.follow(robot, through({p.instance.robot(robot).start.position}));
   }
   EjectionSearch ejection(p.state, p.random, p.never);
   EXPECT_EQ(ejected_for_robot_0(p, ejection, others, {1, 5, 0, 0, 0}), Robots{1});
-  for (const std::size_t robot : others) EXPECT_TRUE(p.state.trajectory(robot)) << "nothing is removed yet";
+  for (const std::size_t robot : others)
+    EXPECT_TRUE(p.reservations.trajectory(robot)) << "nothing is removed yet";
 }
 
 TEST(EjectionSearch, EjectsARobotLastForWhichOthersWereEjected) {
   Planning p = two_gates();
   for (const std::size_t robot : {1u, 2u}) {
-    p.state.follow(robot, through({p.instance.robot(robot).start.position}));
+    p.reservations.follow(robot, through({p.instance.robot(robot).start.position}));
   }
   EjectionSearch ejection(p.state, p.random, p.never);
-  p.state.remove(1);
+  p.reservations.remove(1);
   ASSERT_TRUE(ejection.plan(1, {2}, {0, 1, 0}).trajectory);
-  p.state.follow(1, through({p.instance.robot(1).start.position}));
+  p.reservations.follow(1, through({p.instance.robot(1).start.position}));
   EXPECT_EQ(ejected_for_robot_0(p, ejection, {1, 2}, {1, 1, 3}), Robots{2})
       << "although it failed more often";
 }
 
 TEST(EjectionSearch, FindsNothingWhereRobotsThatStayBlockTheOnlyWay) {
   Planning p = two_gates();
-  for (const std::size_t robot : {1u, 2u}) p.state.stay_in_place(robot);
+  for (const std::size_t robot : {1u, 2u}) p.reservations.stay_in_place(robot);
   EjectionSearch ejection(p.state, p.random, p.never);
   const SearchResult result = ejection.plan(0, {}, {1, 0, 0});
   EXPECT_FALSE(result.trajectory);

@@ -90,7 +90,7 @@ TEST(Enclosure, NeverClosesOffARobotThatHasAPath) {
     Planning p(std::get<Problem>(std::move(problem)), options);
     Robots staying;
     for (std::size_t robot = 1; robot < p.instance.size(); ++robot) {
-      p.state.stay_in_place(robot);
+      p.reservations.stay_in_place(robot);
       staying.push_back(robot);
     }
     const bool closed = Enclosure(p.instance, 0, staying).find(kMany).answer == Answer::closed;

@@ -16,7 +16,7 @@ using support::robot_at;
 
 bool plans(const Planning& p, const std::vector<std::size_t>& robots) {
   Random random(0);
-  return plan_in_steps(p.state, robots, random, p.never).has_value();
+  return plan_in_steps(p.reservations, robots, random, p.never).has_value();
 }
 
 OccupancyGrid hall() {
@@ -60,12 +60,12 @@ TEST(LatticeSteps, RefusesFleetsBesideCommittedMotion) {
 
 TEST(LatticeSteps, FollowingThemChangesNothingWhenStopped) {
   Planning p(hall(), {robot_at(0.5, 0.5).to(5.5, 0.5), robot_at(5.5, 0.5).to(0.5, 0.5)});
-  p.state.reserve_place(0, 3.0);
-  p.state.stay_in_place(1);
-  EXPECT_FALSE(follow_steps(p.state, {0, 1}, {}, p.random, met(), p.progress));
-  EXPECT_FALSE(p.state.trajectory(0));
-  EXPECT_EQ(p.state.reservations().holds_place_for[0], 3.0);
-  EXPECT_EQ(p.state.reservations().holds_place_for[1], kForever);
+  p.reservations.reserve_place(0, 3.0);
+  p.reservations.stay_in_place(1);
+  EXPECT_FALSE(follow_steps(p.reservations, {0, 1}, {}, p.random, met(), p.progress));
+  EXPECT_FALSE(p.reservations.trajectory(0));
+  EXPECT_EQ(p.reservations.holds_place_for(0), 3.0);
+  EXPECT_EQ(p.reservations.holds_place_for(1), kForever);
 }
 
 TEST(LatticeSteps, RefusesFleetsAmongMovingObstacles) {
@@ -79,18 +79,19 @@ TEST(LatticeSteps, RefusesFleetsAmongMovingObstacles) {
 
 TEST(LatticeSteps, GoRoundRobotsThatStay) {
   Planning p(hall(), {robot_at(0.5, 1.5).to(5.5, 1.5), robot_at(2.5, 1.5), robot_at(3.6, 0.4)});
-  p.state.stay_in_place(1);
-  p.state.stay_in_place(2);
-  ASSERT_TRUE(follow_steps(p.state, {0}, {}, p.random, p.never, p.progress));
-  support::expect_safe(p.state);
+  p.reservations.stay_in_place(1);
+  p.reservations.stay_in_place(2);
+  ASSERT_TRUE(follow_steps(p.reservations, {0}, {}, p.random, p.never, p.progress));
+  support::expect_safe(p.reservations);
 }
 
 TEST(LatticeSteps, FollowingThemChangesNothingWhereTheyCannotBe) {
   Planning p(hall(), {robot_at(0.5, 0.5).to(5.5, 0.5), robot_at(0.5, 1.5).to(5.5, 1.5)});
-  p.state.follow(1, through({{0.5, 1.5}, {5.5, 1.5}}));
-  EXPECT_FALSE(follow_steps(p.state, {0}, {}, p.random, p.never, p.progress)) << "another robot is under way";
-  EXPECT_FALSE(p.state.trajectory(0));
-  EXPECT_TRUE(p.state.trajectory(1));
+  p.reservations.follow(1, through({{0.5, 1.5}, {5.5, 1.5}}));
+  EXPECT_FALSE(follow_steps(p.reservations, {0}, {}, p.random, p.never, p.progress))
+      << "another robot is under way";
+  EXPECT_FALSE(p.reservations.trajectory(0));
+  EXPECT_TRUE(p.reservations.trajectory(1));
 }
 
 /// A random fleet on the lattice: of different radii, speeds, accelerations and headings.
@@ -142,15 +143,15 @@ TEST(LatticeSteps, RandomFleetsNeverMeet) {
     Planning p = random_fleet(seed);
     const std::vector<std::size_t> robots = p.movers();
     for (std::size_t i = 0; i < p.instance.size(); ++i) {
-      if (!p.instance.robot(i).goal) p.state.stay_in_place(i);
+      if (!p.instance.robot(i).goal) p.reservations.stay_in_place(i);
     }
-    auto trajectories = plan_in_steps(p.state, robots, p.random, p.never);
+    auto trajectories = plan_in_steps(p.reservations, robots, p.random, p.never);
     if (!trajectories) continue;  // walls may part them
     ++planned;
-    for (std::size_t k = 0; k < robots.size(); ++k) p.state.follow(robots[k], (*trajectories)[k]);
-    support::expect_safe(p.state);
+    for (std::size_t k = 0; k < robots.size(); ++k) p.reservations.follow(robots[k], (*trajectories)[k]);
+    support::expect_safe(p.reservations);
     for (std::size_t k = 0; k < robots.size(); ++k) {
-      EXPECT_TRUE(p.state.conflicting_robots(robots[k], (*trajectories)[k]).empty());
+      EXPECT_TRUE(p.reservations.conflicting_robots(robots[k], (*trajectories)[k]).empty());
     }
   }
   EXPECT_GT(planned, 100);

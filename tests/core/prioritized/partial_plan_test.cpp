@@ -36,49 +36,49 @@ PlanOptions no_start_interval() {
 
 TEST(PartialPlan, PlansRobotsWithoutATrajectory) {
   Planning p(hall(), {robot_at(0.5, 3.5).to(6.5, 3.5), robot_at(6.5, 2.5).to(0.5, 2.5)});
-  p.state.follow(1, through({{6.5, 2.5}, {0.5, 2.5}}, 4.0));
+  p.reservations.follow(1, through({{6.5, 2.5}, {0.5, 2.5}}, 4.0));
   const PartialPlan partial = make_partial_plan(p.state, {1, 0}, {}, p.never, p.progress);
   EXPECT_TRUE(partial.unplanned.empty());
   EXPECT_FALSE(partial.cut_off);
-  EXPECT_EQ(p.state.trajectory(1)->moves.front().t_start, 4.0) << "it was planned already";
-  expect_safe(p.state);
+  EXPECT_EQ(p.reservations.trajectory(1)->moves.front().t_start, 4.0) << "it was planned already";
+  expect_safe(p.reservations);
 }
 
 TEST(PartialPlan, ReportsTheRobotsThatBlockAnUnplannedRobot) {
   Planning p(hall(), {robot_at(3.5, 3.5).to(5.5, 0.5), robot_at(5.5, 1.5), robot_at(0.5, 4.5).to(6.5, 4.5)});
-  p.state.stay_in_place(1);
+  p.reservations.stay_in_place(1);
   const PartialPlan partial = make_partial_plan(p.state, {0, 2}, {}, p.never, p.progress);
   ASSERT_EQ(robots_of(partial), Robots{0});
   EXPECT_EQ(static_cast<int>(partial.unplanned[0].reason), static_cast<int>(Reason::blocked_by_robots));
   EXPECT_EQ(partial.unplanned[0].blocked_by, Robots{1});
   EXPECT_FALSE(partial.cut_off);
-  EXPECT_TRUE(p.state.trajectory(2)) << "its neighbour keeps its plan";
-  expect_safe(p.state);
+  EXPECT_TRUE(p.reservations.trajectory(2)) << "its neighbour keeps its plan";
+  expect_safe(p.reservations);
 }
 
 TEST(PartialPlan, DoesNotReportRobotsThatDoNotBlock) {
   // Robot 2 crosses the path of robot 0 to the closet that robot 1 blocks.
   Planning p(hall(), {robot_at(3.5, 3.5).to(5.5, 0.5), robot_at(5.5, 1.5), robot_at(2.5, 2.5).to(6.5, 2.5)});
-  p.state.stay_in_place(1);
-  p.state.follow(2, through({{2.5, 2.5}, {6.5, 2.5}}));
-  ASSERT_EQ(p.state.conflicting_robots(0, p.state.plan_alone(0, p.never)), (Robots{1, 2}));
+  p.reservations.stay_in_place(1);
+  p.reservations.follow(2, through({{2.5, 2.5}, {6.5, 2.5}}));
+  ASSERT_EQ(p.reservations.conflicting_robots(0, p.state.plan_alone(0, p.never)), (Robots{1, 2}));
   const PartialPlan partial = make_partial_plan(p.state, {0}, {}, p.never, p.progress);
   ASSERT_EQ(robots_of(partial), Robots{0});
   EXPECT_EQ(partial.unplanned[0].blocked_by, Robots{1});
-  expect_safe(p.state);
+  expect_safe(p.reservations);
 }
 
 TEST(PartialPlan, ReplansRobotsThatCrossedTheStartOfAnUnplannedRobot) {
   // Robot 0 drives straight over the start of robot 1, which is then found to stay there.
   Planning p(hall(), {robot_at(0.5, 3.5).to(6.5, 3.5), robot_at(3.5, 3.5).to(5.5, 0.5), robot_at(5.5, 1.5)},
              no_start_interval());
-  p.state.stay_in_place(2);
-  p.state.follow(0, through({{0.5, 3.5}, {6.5, 3.5}}));
+  p.reservations.stay_in_place(2);
+  p.reservations.follow(0, through({{0.5, 3.5}, {6.5, 3.5}}));
   const PartialPlan partial = make_partial_plan(p.state, {0, 1}, {}, p.never, p.progress);
   EXPECT_EQ(robots_of(partial), Robots{1});
-  ASSERT_TRUE(p.state.trajectory(0));
-  EXPECT_GT(p.state.trajectory(0)->cost, 6.0) << "around robot 1";
-  expect_safe(p.state);
+  ASSERT_TRUE(p.reservations.trajectory(0));
+  EXPECT_GT(p.reservations.trajectory(0)->cost, 6.0) << "around robot 1";
+  expect_safe(p.reservations);
 }
 
 TEST(PartialPlan, GivesUpRobotsWithoutAPathAroundAnUnplannedRobot) {
@@ -86,23 +86,23 @@ TEST(PartialPlan, GivesUpRobotsWithoutAPathAroundAnUnplannedRobot) {
   Planning p(OccupancyGrid(9, 1, 1.0),
              {robot_at(0.5, 0.5).to(5.5, 0.5), robot_at(3.5, 0.5).to(8.5, 0.5), robot_at(7.5, 0.5)},
              no_start_interval());
-  p.state.stay_in_place(2);
-  p.state.follow(0, through({{0.5, 0.5}, {5.5, 0.5}}));
+  p.reservations.stay_in_place(2);
+  p.reservations.follow(0, through({{0.5, 0.5}, {5.5, 0.5}}));
   const PartialPlan partial = make_partial_plan(p.state, {0, 1}, {}, p.never, p.progress);
   ASSERT_EQ(robots_of(partial), (Robots{0, 1}));
   EXPECT_EQ(partial.unplanned[0].blocked_by, Robots{1});
   EXPECT_EQ(partial.unplanned[1].blocked_by, Robots{2});
-  EXPECT_FALSE(p.state.trajectory(0));
-  expect_safe(p.state);
+  EXPECT_FALSE(p.reservations.trajectory(0));
+  expect_safe(p.reservations);
 }
 
 TEST(PartialPlan, TriesRobotsGivenUpOnceMore) {
   Planning p(hall(), {robot_at(0.5, 3.5).to(6.5, 3.5), robot_at(3.5, 2.5).to(5.5, 0.5)});
-  p.state.stay_in_place(1);
+  p.reservations.stay_in_place(1);
   const PartialPlan partial = make_partial_plan(p.state, {0}, {1}, p.never, p.progress);
   EXPECT_TRUE(partial.unplanned.empty()) << "no robot blocks it any more";
-  EXPECT_TRUE(p.state.trajectory(1));
-  expect_safe(p.state);
+  EXPECT_TRUE(p.reservations.trajectory(1));
+  expect_safe(p.reservations);
 }
 
 TEST(PartialPlan, PlansNoRobotAfterStop) {
@@ -111,7 +111,7 @@ TEST(PartialPlan, PlansNoRobotAfterStop) {
   ASSERT_EQ(robots_of(partial), (Robots{0, 1}));
   EXPECT_EQ(static_cast<int>(partial.unplanned[0].reason), static_cast<int>(Reason::budget_exhausted));
   EXPECT_TRUE(partial.cut_off);
-  expect_safe(p.state);
+  expect_safe(p.reservations);
 }
 
 TEST(PartialPlan, RemovesPlansThatCrossAnUnplannedRobotWhenStopped) {
@@ -119,22 +119,22 @@ TEST(PartialPlan, RemovesPlansThatCrossAnUnplannedRobotWhenStopped) {
       hall(),
       {robot_at(0.5, 3.5).to(6.5, 3.5), robot_at(3.5, 3.5).to(5.5, 0.5), robot_at(0.5, 4.5).to(6.5, 4.5)},
       no_start_interval());
-  p.state.follow(0, through({{0.5, 3.5}, {6.5, 3.5}}));
-  p.state.follow(2, through({{0.5, 4.5}, {6.5, 4.5}}));
+  p.reservations.follow(0, through({{0.5, 3.5}, {6.5, 3.5}}));
+  p.reservations.follow(2, through({{0.5, 4.5}, {6.5, 4.5}}));
   const PartialPlan partial = make_partial_plan(p.state, {0, 2, 1}, {}, met(), p.progress);
   EXPECT_EQ(robots_of(partial), (Robots{0, 1})) << "robot 2 conflicts with no robot";
-  EXPECT_TRUE(p.state.trajectory(2));
-  expect_safe(p.state);
+  EXPECT_TRUE(p.reservations.trajectory(2));
+  expect_safe(p.reservations);
 }
 
 TEST(PartialPlan, ReturnsRobotsToTheirPathsWhenTheOneInTheirWayHasLeft) {
   Planning p(hall(), {robot_at(3.5, 3.5).to(3.5, 4.5), robot_at(0.5, 3.5).to(6.5, 3.5)});
-  p.state.follow(1, through({{0.5, 3.5}, {6.5, 3.5}}, 50.0));
+  p.reservations.follow(1, through({{0.5, 3.5}, {6.5, 3.5}}, 50.0));
   const PartialPlan partial = make_partial_plan(p.state, {0}, {}, p.never, p.progress);
   EXPECT_TRUE(partial.unplanned.empty());
-  ASSERT_TRUE(p.state.trajectory(1));
-  EXPECT_EQ(p.state.trajectory(1)->moves.front().t_start, 50.0) << "its earlier path, not a new one";
-  expect_safe(p.state);
+  ASSERT_TRUE(p.reservations.trajectory(1));
+  EXPECT_EQ(p.reservations.trajectory(1)->moves.front().t_start, 50.0) << "its earlier path, not a new one";
+  expect_safe(p.reservations);
 }
 
 }  // namespace TEST_FILE

@@ -50,7 +50,7 @@ TEST(Prioritized, NeedsOneAttemptWhereTheFirstOrderWorks) {
   EXPECT_TRUE(result.unplanned.empty());
   EXPECT_EQ(result.attempts, 1);
   EXPECT_FALSE(result.cut_off);
-  expect_safe(p.state);
+  expect_safe(p.reservations);
 }
 
 TEST(Prioritized, RaisesTheRobotThatFailed) {
@@ -58,7 +58,7 @@ TEST(Prioritized, RaisesTheRobotThatFailed) {
   const auto result = run(p);
   EXPECT_TRUE(result.unplanned.empty());
   EXPECT_EQ(result.attempts, 2);
-  expect_safe(p.state);
+  expect_safe(p.reservations);
 }
 
 TEST(Prioritized, TriesRandomOrders) {
@@ -67,7 +67,7 @@ TEST(Prioritized, TriesRandomOrders) {
   EXPECT_TRUE(result.unplanned.empty());
   EXPECT_GE(result.attempts, 2);
   EXPECT_LE(result.attempts, 6) << "there are no more orders";
-  expect_safe(p.state);
+  expect_safe(p.reservations);
 }
 
 TEST(Prioritized, PlansTheOtherRobotsWithoutReordering) {
@@ -76,9 +76,9 @@ TEST(Prioritized, PlansTheOtherRobotsWithoutReordering) {
   ASSERT_EQ(robots_of(result), Robots{1});
   EXPECT_EQ(result.unplanned[0].blocked_by, Robots{0});
   EXPECT_EQ(result.attempts, 1);
-  EXPECT_TRUE(p.state.trajectory(0));
-  EXPECT_TRUE(p.state.trajectory(2)) << "its priority is below that of the robot that failed";
-  expect_safe(p.state);
+  EXPECT_TRUE(p.reservations.trajectory(0));
+  EXPECT_TRUE(p.reservations.trajectory(2)) << "its priority is below that of the robot that failed";
+  expect_safe(p.reservations);
 }
 
 TEST(Prioritized, PlansTheOtherRobotsWhenOneIsBlockedByAParkedRobot) {
@@ -89,14 +89,14 @@ TEST(Prioritized, PlansTheOtherRobotsWhenOneIsBlockedByAParkedRobot) {
                {robot_at(4.5, 1.5), robot_at(0.5, 1.5).to(8.5, 1.5), robot_at(8.5, 0.5).to(5.5, 0.5),
                 robot_at(2.5, 2.5).to(0.5, 2.5)},
                Doorway::chosen(Priority::shortest_first, reordering));
-    p.state.stay_in_place(0);
+    p.reservations.stay_in_place(0);
     const auto result = run(p);
     ASSERT_EQ(robots_of(result), Robots{1});
     EXPECT_EQ(static_cast<int>(result.unplanned[0].reason),
               static_cast<int>(Unplanned::Reason::blocked_by_robots));
     EXPECT_EQ(result.unplanned[0].blocked_by, Robots{0});
     EXPECT_FALSE(result.cut_off);
-    expect_safe(p.state);
+    expect_safe(p.reservations);
   }
 }
 
@@ -115,7 +115,7 @@ TEST(Prioritized, CompletesAPartialPlanAfterTheTimeForAttempts) {
                        PlanningTime{met(), StopCondition::never(), StopCondition::never()}, p.progress);
   EXPECT_TRUE(result.unplanned.empty()) << "there is time left to complete";
   EXPECT_TRUE(result.cut_off);
-  expect_safe(p.state);
+  expect_safe(p.reservations);
 }
 
 TEST(Prioritized, LeavesAllRobotsUnplannedAfterStop) {
@@ -126,7 +126,7 @@ TEST(Prioritized, LeavesAllRobotsUnplannedAfterStop) {
   EXPECT_TRUE(result.cut_off);
   EXPECT_EQ(static_cast<int>(result.unplanned[0].reason),
             static_cast<int>(Unplanned::Reason::budget_exhausted));
-  expect_safe(p.state);
+  expect_safe(p.reservations);
 }
 
 TEST(Prioritized, GoesOnAfterKeepingASafePlan) {
@@ -135,7 +135,7 @@ TEST(Prioritized, GoesOnAfterKeepingASafePlan) {
                                        PlanningTime{met(), met(), StopCondition::never()}, p.progress);
   EXPECT_TRUE(result.unplanned.empty()) << "the time for the safe plan was over, but not all of it";
   EXPECT_TRUE(result.cut_off);
-  expect_safe(p.state);
+  expect_safe(p.reservations);
 }
 
 /// Two robots that cannot change places, and three others.
@@ -156,7 +156,7 @@ TEST(Prioritized, TriesOtherOrdersAfterARobotWasGivenUp) {
   const auto result = run(p);
   EXPECT_EQ(robots_of(result), (Robots{0, 1})) << "each is in the other's way";
   EXPECT_GT(result.attempts, 2 * first.attempts);
-  expect_safe(p.state);
+  expect_safe(p.reservations);
 }
 
 TEST(Prioritized, DoesNotTryOtherOrdersForARobotThatHasNoPathAtAll) {
@@ -167,7 +167,7 @@ TEST(Prioritized, DoesNotTryOtherOrdersForARobotThatHasNoPathAtAll) {
                           "....#...."}),
       {robot_at(4.5, 1.5), robot_at(0.5, 1.5).to(8.5, 1.5), robot_at(8.5, 0.5).to(5.5, 0.5),
        robot_at(2.5, 2.5).to(0.5, 2.5), robot_at(6.5, 2.5).to(8.5, 2.5), robot_at(2.5, 0.5).to(1.5, 0.5)});
-  p.state.stay_in_place(0);
+  p.reservations.stay_in_place(0);
   const auto result = run(p);
   EXPECT_EQ(robots_of(result), Robots{1});
   EXPECT_EQ(result.unplanned[0].blocked_by, Robots{0});

@@ -29,10 +29,10 @@ TEST(Repair, RaisesAFailedRobotAndReplansOnlyConflictingRobots) {
   EXPECT_TRUE(result.unsolved.empty());
   EXPECT_TRUE(result.given_up.empty());
   EXPECT_EQ(result.attempts, 2) << "robot 1 failed once";
-  for (std::size_t robot = 0; robot < 3; ++robot) EXPECT_TRUE(p.state.trajectory(robot));
-  EXPECT_GT(p.state.trajectory(0)->cost, 7.0) << "it waits for robot 1";
-  EXPECT_DOUBLE_EQ(p.state.trajectory(2)->cost, 2.0) << "it conflicted with no robot";
-  expect_safe(p.state);
+  for (std::size_t robot = 0; robot < 3; ++robot) EXPECT_TRUE(p.reservations.trajectory(robot));
+  EXPECT_GT(p.reservations.trajectory(0)->cost, 7.0) << "it waits for robot 1";
+  EXPECT_DOUBLE_EQ(p.reservations.trajectory(2)->cost, 2.0) << "it conflicted with no robot";
+  expect_safe(p.reservations);
 }
 
 TEST(Repair, GivesUpARobotWithoutAPathAmongRobotsThatStay) {
@@ -40,13 +40,13 @@ TEST(Repair, GivesUpARobotWithoutAPathAmongRobotsThatStay) {
                                  ".........",  //
                                  "....#...."}),
              {robot_at(4.5, 1.5), robot_at(0.5, 1.5).to(8.5, 1.5), robot_at(8.5, 0.5).to(5.5, 0.5)});
-  p.state.stay_in_place(0);
+  p.reservations.stay_in_place(0);
   Random random(7);
   const OrderingResult result = repair_or_restart(p.state, {1, 2}, random, p.never, p.progress);
   EXPECT_EQ(result.given_up, Robots{1});
   EXPECT_TRUE(result.unsolved.empty());
-  EXPECT_TRUE(p.state.trajectory(2));
-  expect_safe(p.state);
+  EXPECT_TRUE(p.reservations.trajectory(2));
+  expect_safe(p.reservations);
 }
 
 TEST(Repair, BreaksACycleOfRaisedRobotsByAStartDelay) {
@@ -58,7 +58,7 @@ TEST(Repair, BreaksACycleOfRaisedRobotsByAStartDelay) {
   const OrderingResult result = repair_or_restart(p.state, {0, 1}, random, p.never, p.progress);
   EXPECT_TRUE(result.unsolved.empty());
   EXPECT_GT(result.attempts, 4) << "a delay is tried only after several failures";
-  expect_safe(p.state);
+  expect_safe(p.reservations);
 }
 
 TEST(Repair, GivesUpARobotThatKeepsFailing) {
@@ -73,8 +73,8 @@ TEST(Repair, GivesUpARobotThatKeepsFailing) {
   const OrderingResult result = repair_or_restart(p.state, {0, 1, 2, 3, 4}, random, p.never, p.progress);
   EXPECT_TRUE(result.unsolved.empty());
   EXPECT_EQ(result.given_up, (Robots{1, 0})) << "each blocks the other";
-  for (const std::size_t robot : {2u, 3u, 4u}) EXPECT_TRUE(p.state.trajectory(robot));
-  expect_safe(p.state);
+  for (const std::size_t robot : {2u, 3u, 4u}) EXPECT_TRUE(p.reservations.trajectory(robot));
+  expect_safe(p.reservations);
 }
 
 TEST(Repair, StartsAgainWithLargerRobotsFirstAfterManyFailures) {
@@ -92,10 +92,10 @@ TEST(Repair, StartsAgainWithLargerRobotsFirstAfterManyFailures) {
   Random random(7);
   const OrderingResult result = repair_or_restart(p.state, {0, 1, 2, 3}, random, p.never, p.progress);
   EXPECT_EQ(result.given_up.size(), 2u);
-  ASSERT_TRUE(p.state.trajectory(2) && p.state.trajectory(3));
-  EXPECT_NEAR(p.state.trajectory(3)->cost, 4.0, 1e-9);
-  EXPECT_GT(p.state.trajectory(2)->cost, 6.1) << "planned later, although listed before";
-  expect_safe(p.state);
+  ASSERT_TRUE(p.reservations.trajectory(2) && p.reservations.trajectory(3));
+  EXPECT_NEAR(p.reservations.trajectory(3)->cost, 4.0, 1e-9);
+  EXPECT_GT(p.reservations.trajectory(2)->cost, 6.1) << "planned later, although listed before";
+  expect_safe(p.reservations);
 }
 
 /// Robots of one size that start and end in random cells of an empty hall.
@@ -123,9 +123,9 @@ TEST(Repair, PlansACrowdThatFillsTwoFifthsOfTheFloor) {
     const OrderingResult result = repair_or_restart(p.state, p.movers(), random, p.never, p.progress);
     EXPECT_TRUE(result.unsolved.empty()) << "seed " << seed;
     EXPECT_TRUE(result.given_up.empty()) << "seed " << seed;
-    EXPECT_EQ(p.state.planned_count(), 58u) << "seed " << seed;
+    EXPECT_EQ(p.reservations.planned_count(), 58u) << "seed " << seed;
     EXPECT_GT(result.attempts, 5) << "seed " << seed << " is no crowd";
-    expect_safe(p.state);
+    expect_safe(p.reservations);
   }
 }
 
@@ -167,11 +167,11 @@ Planning mixed_fleet(std::uint64_t seed, PlanOptions::Objective objective) {
 double first_flowtime(std::uint64_t seed, PlanOptions::Objective objective) {
   Planning p = mixed_fleet(seed, objective);
   const OrderingResult result = repair_or_restart(p.state, p.movers(), p.random, p.never, p.progress);
-  expect_safe(p.state);
+  expect_safe(p.reservations);
   EXPECT_FALSE(result.cut_off);
   double sum = 0.0;
   for (const std::size_t robot : p.movers()) {
-    if (p.state.trajectory(robot)) sum += p.state.trajectory(robot)->cost;
+    if (p.reservations.trajectory(robot)) sum += p.reservations.trajectory(robot)->cost;
   }
   return sum;
 }

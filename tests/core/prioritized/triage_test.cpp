@@ -42,13 +42,13 @@ OccupancyGrid rooms() {
 TEST(Triage, AcceptsRobotsThatCanBePlanned) {
   Planning p(rooms(), {robot_at(1, 1).to(8, 1), robot_at(8, 2).to(1, 2), robot_at(3, 1)});
   for (const auto& robot : triage(p.state, p.never)) EXPECT_FALSE(robot);
-  EXPECT_EQ(p.state.robots_crossing_place(0), Robots{}) << "it has no reservation";
+  EXPECT_EQ(p.reservations.robots_crossing_place(0), Robots{}) << "it has no reservation";
 }
 
 TEST(Triage, KeepsParkedRobotsAtTheirStarts) {
   Planning p(rooms(), {robot_at(1, 1).to(1, 2), robot_at(3, 1)});
   EXPECT_FALSE(triage(p.state, p.never)[1]);
-  EXPECT_EQ(p.state.conflicting_robots(0, through({{1, 1}, {3.5, 1}})), Robots{1});
+  EXPECT_EQ(p.reservations.conflicting_robots(0, through({{1, 1}, {3.5, 1}})), Robots{1});
 }
 
 TEST(Triage, GivesUpARobotThatCannotLeaveItsStartWhenInflated) {
@@ -61,7 +61,7 @@ TEST(Triage, GivesUpARobotThatCannotLeaveItsStartWhenInflated) {
   const auto result = triage(p.state, p.never);
   expect_given_up(result[0], 0, Reason::start_blocked);
   EXPECT_FALSE(result[1]);
-  EXPECT_EQ(p.state.conflicting_robots(1, through({{6, 1}, {1.5, 2.5}})), Robots{0})
+  EXPECT_EQ(p.reservations.conflicting_robots(1, through({{6, 1}, {1.5, 2.5}})), Robots{0})
       << "it stays at its start";
 }
 
@@ -205,8 +205,8 @@ TEST(Triage, LeavesTheMapSearchesOfMostRobotsForLater) {
   for (int k = 0; k < 60; ++k) robots.push_back(robot_at(10.5, 4 * k + 10.5).to(290.5, 280.5 - 4 * k));
   Planning p(grid, robots);
   triage(p.state, p.never);
-  EXPECT_EQ(p.state.way_to_goal(59).kind, Way::Kind::unknown);
-  EXPECT_LE(p.state.map_expansions(), 50'000);
+  EXPECT_EQ(p.state.ways().way_to_goal(59).kind, Way::Kind::unknown);
+  EXPECT_LE(p.state.ways().map_expansions(), 50'000);
 }
 
 }  // namespace TEST_FILE

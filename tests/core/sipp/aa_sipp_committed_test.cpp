@@ -92,8 +92,8 @@ TEST(AaSippCommitted, BeginsInTheSafeIntervalOfTheirEnd) {
   // Robot 1 passes the end of the committed move before robot 0 is there, and robot 2 passes it at t = 20.
   Planning p(OccupancyGrid(10, 5, 1.0), {with_committed(robot_at(1.5, 2.5).to(3.5, 2.5), slow_move()),
                                          robot_at(3.5, 4.5).to(3.5, 0.5), robot_at(3.5, 0.5).to(3.5, 4.5)});
-  p.state.follow(1, through({{3.5, 4.5}, {3.5, 0.5}, {9.5, 0.5}}, 0.0));
-  p.state.follow(2, through({{3.5, 0.5}, {3.5, 4.5}}, 18.0));
+  p.reservations.follow(1, through({{3.5, 4.5}, {3.5, 0.5}, {9.5, 0.5}}, 0.0));
+  p.reservations.follow(2, through({{3.5, 0.5}, {3.5, 4.5}}, 18.0));
   const Trajectory trajectory = plan_exactly(p);
   ASSERT_GE(trajectory.moves.size(), 3u) << "it steps aside and returns";
   EXPECT_EQ(trajectory.moves[0].t_end, 4.0);
@@ -105,7 +105,7 @@ TEST(AaSippCommitted, BeginsInTheSafeIntervalOfTheirEnd) {
 TEST(AaSippCommitted, FindsNoPlanIfTheirEndIsOccupiedThen) {
   Planning p(OccupancyGrid(10, 5, 1.0),
              {with_committed(robot_at(1.5, 2.5).to(8.5, 2.5), slow_move()), robot_at(3.5, 0.5).to(3.5, 4.5)});
-  p.state.follow(1, through({{3.5, 0.5}, {3.5, 4.5}}, 2.0));  // at (3.5, 2.5) at t = 4
+  p.reservations.follow(1, through({{3.5, 0.5}, {3.5, 4.5}}, 2.0));  // at (3.5, 2.5) at t = 4
   EXPECT_FALSE(p.state.plan(0, kExact, p.never).trajectory);
 }
 

@@ -24,8 +24,9 @@ OccupancyGrid corridor() { return support::ascii_map({"...................."}); 
 
 /// A trajectory may stop at the horizon, which takes the place of its cost.
 void expect_safe_up_to_horizon(const Planning& p) {
-  std::vector<RobotPlan> plans = support::plans_of(p.state);
-  for (RobotPlan& plan : plans) plan.cost = p.state.trajectory(plan.robot)->stops_at.value_or(plan.cost);
+  std::vector<RobotPlan> plans = support::plans_of(p.reservations);
+  for (RobotPlan& plan : plans)
+    plan.cost = p.reservations.trajectory(plan.robot)->stops_at.value_or(plan.cost);
   CheckRules rules;
   rules.horizon = p.instance.options().horizon;
   const VerifyReport report = support::safety_report(p.problem, plans, rules);
@@ -36,7 +37,7 @@ Trajectory plan_of(Planning& p, std::size_t robot) {
   const SearchResult result = p.state.plan(robot, kExact, p.never);
   EXPECT_TRUE(result.trajectory);
   if (!result.trajectory) return {};
-  p.state.follow(robot, *result.trajectory);
+  p.reservations.follow(robot, *result.trajectory);
   expect_safe_up_to_horizon(p);
   return *result.trajectory;
 }
@@ -59,7 +60,7 @@ TEST(AaSippHorizon, EndsWhereTheRobotMayRestFromTheHorizonOn) {
 
 TEST(AaSippHorizon, WaitsUntilTheHorizonBehindARobotThatStays) {
   Planning p(corridor(), {robot_at(0.5, 0.5).to(18.5, 0.5), robot_at(3.5, 0.5)}, up_to(8.0));
-  p.state.stay_in_place(1);
+  p.reservations.stay_in_place(1);
   const Trajectory trajectory = plan_of(p, 0);
   ASSERT_TRUE(trajectory.stops_at);
   EXPECT_NEAR(*trajectory.stops_at, 8.0, 1e-9);
@@ -71,7 +72,7 @@ TEST(AaSippHorizon, DoesNotRestWhereAnotherRobotPassesLater) {
   Planning p(support::ascii_map({"..........", "..........", ".........."}),
              {robot_at(0.5, 1.5).to(9.5, 1.5), robot_at(9.5, 1.5, std::numbers::pi).to(0.5, 1.5)},
              up_to(3.0));
-  p.state.follow(1, through({{9.5, 1.5}, {0.5, 1.5}}));
+  p.reservations.follow(1, through({{9.5, 1.5}, {0.5, 1.5}}));
   const Trajectory trajectory = plan_of(p, 0);
   ASSERT_TRUE(trajectory.stops_at);
   EXPECT_GE(std::abs(trajectory.end().y() - 1.5), 0.5) << "beside the other's way";
@@ -79,7 +80,7 @@ TEST(AaSippHorizon, DoesNotRestWhereAnotherRobotPassesLater) {
 
 TEST(AaSippHorizon, GoesOnTowardsAGoalWhereAnotherRobotRests) {
   Planning p(corridor(), {robot_at(0.5, 0.5).to(9.5, 0.5), robot_at(9.5, 0.5).to(15.5, 0.5)}, up_to(20.0));
-  p.state.stay_in_place(1);
+  p.reservations.stay_in_place(1);
   const Trajectory trajectory = plan_of(p, 0);
   ASSERT_TRUE(trajectory.stops_at);
   EXPECT_NEAR(trajectory.end().x(), 8.5, 1e-9);

@@ -31,8 +31,8 @@ Trajectory plan_first(Planning& p) {
   const SearchResult result = p.state.plan(0, kExact, p.never);
   EXPECT_TRUE(result.trajectory);
   if (!result.trajectory) return {};
-  p.state.follow(0, *result.trajectory);
-  expect_safe(p.state);
+  p.reservations.follow(0, *result.trajectory);
+  expect_safe(p.reservations);
   return *result.trajectory;
 }
 
@@ -133,7 +133,7 @@ TEST(AaSippMoves, WaitForAnotherRobotCountsAsAddedWait) {
   options.wait_before_move = 2.0;
   Planning p(OccupancyGrid(10, 1, 1.0), {robot_at(0.5, 0.5).to(5.5, 0.5), robot_at(1.5, 0.5).to(9.5, 0.5)},
              options);
-  p.state.follow(1, through({{1.5, 0.5}, {9.5, 0.5}}, 7.0));
+  p.reservations.follow(1, through({{1.5, 0.5}, {9.5, 0.5}}, 7.0));
   EXPECT_NEAR(plan_first(p).cost, 11.8, 1e-8) << "0.2 m behind the other robot, which leaves at t = 7";
 }
 
@@ -159,7 +159,7 @@ TEST(AaSippMoves, LaterArrivalContinuesStraightIfEarlierOneMustWait) {
   Planning p = with_crossing_robots(crossings, options);
   for (std::size_t k = 1; k < p.instance.size(); ++k) {
     const auto& robot = p.instance.robot(k);
-    p.state.follow(k, through({robot.start.position, robot.goal->position}));
+    p.reservations.follow(k, through({robot.start.position, robot.goal->position}));
   }
   EXPECT_NEAR(plan_first(p).cost, 13.5 + 0.6 * std::sqrt(2.0) + 3.0, 1e-6) << "close behind the first robot";
 }

@@ -45,8 +45,8 @@ Planned plan_first(Planning& p, const SearchLimits& limits = kExact) {
   EXPECT_TRUE(result.trajectory);
   if (!result.trajectory) return {};
   const Robot& robot = p.instance.robot(0);
-  p.state.follow(0, *result.trajectory);
-  expect_safe(p.state);
+  p.reservations.follow(0, *result.trajectory);
+  expect_safe(p.reservations);
   Planned planned{*result.trajectory, to_actions(robot, *result.trajectory), {}};
   planned.visits = visits_of(robot, planned.actions);
   EXPECT_EQ(planned.visits.size(), robot.goal_count());
@@ -158,7 +158,7 @@ TEST(AaSippSequence, LeavesAGoalThatAnotherRobotPassesAndComesBack) {
   Planning p(OccupancyGrid(10, 5, 1.0),
              {with_goals(robot_at(1.5, 2.5), {{{4.5, 2.5}, {}, 10.0}, {{8.5, 2.5}, {}}}),
               robot_at(4.5, 4.5).to(4.5, 0.5)});
-  p.state.follow(1, through({{4.5, 4.5}, {4.5, 0.5}}, 6.0));
+  p.reservations.follow(1, through({{4.5, 4.5}, {4.5, 0.5}}, 6.0));
   const Planned planned = plan_first(p);
   EXPECT_GT(planned.visits[0].t_arrive, 8.0);
   EXPECT_NEAR(planned.visits[0].t_leave, planned.visits[0].t_arrive + 10.0, 1e-9);
@@ -169,7 +169,7 @@ TEST(AaSippSequence, ServesBeforeAnotherRobotPassesIfThereIsTime) {
   Planning p(OccupancyGrid(10, 5, 1.0),
              {with_goals(robot_at(1.5, 2.5), {{{4.5, 2.5}, {}, 3.0}, {{8.5, 2.5}, {}}}),
               robot_at(4.5, 4.5).to(4.5, 0.5)});
-  p.state.follow(1, through({{4.5, 4.5}, {4.5, 0.5}}, 6.0));
+  p.reservations.follow(1, through({{4.5, 4.5}, {4.5, 0.5}}, 6.0));
   const Planned planned = plan_first(p);
   EXPECT_NEAR(planned.trajectory.cost, 3.0 + 3.0 + 4.0, kTime);
 }
@@ -177,7 +177,7 @@ TEST(AaSippSequence, ServesBeforeAnotherRobotPassesIfThereIsTime) {
 TEST(AaSippSequence, ProvesQuicklyThatAGoalOnTheWayIsNeverFree) {
   Planning p(OccupancyGrid(10, 5, 1.0),
              {with_goals(robot_at(1.5, 2.5), {{{4.5, 2.5}, {}, 3.0}, {{8.5, 2.5}, {}}}), robot_at(4.5, 2.5)});
-  p.state.stay_in_place(1);
+  p.reservations.stay_in_place(1);
   const SearchResult result = p.state.plan(0, {}, p.never);
   EXPECT_FALSE(result.trajectory);
   EXPECT_TRUE(result.complete);

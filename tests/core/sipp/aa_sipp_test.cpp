@@ -26,8 +26,8 @@ Trajectory plan_first(Planning& p) {
   EXPECT_TRUE(result.complete);
   EXPECT_TRUE(result.trajectory);
   if (!result.trajectory) return {};
-  p.state.follow(0, *result.trajectory);
-  expect_safe(p.state);
+  p.reservations.follow(0, *result.trajectory);
+  expect_safe(p.reservations);
   return *result.trajectory;
 }
 
@@ -61,8 +61,8 @@ TEST(AaSipp, IgnoresStartDelayIfGoalIsStart) {
     const SearchResult result = p.state.plan(0, {.start_delay = 2.5}, p.never);
     ASSERT_TRUE(result.trajectory);
     EXPECT_NEAR(result.trajectory->cost, turns ? 1.0 : 0.0, 1e-12);
-    p.state.follow(0, *result.trajectory);
-    expect_safe(p.state);
+    p.reservations.follow(0, *result.trajectory);
+    expect_safe(p.reservations);
   }
 }
 
@@ -88,13 +88,14 @@ TEST(AaSipp, KeepsExactStartAndGoalOffLattice) {
 
 TEST(AaSipp, DepartsWhenPassingRobotJustTouches) {
   Planning p(crossing(), {robot_at(0.5, 2.5).to(8.5, 2.5), robot_at(4.5, 4.5).to(4.5, 0.5)});
-  p.state.follow(1, through({{4.5, 4.5}, {4.5, 0.5}}, 2.0));  // in the middle at t = 4, as robot 0 would be
+  p.reservations.follow(
+      1, through({{4.5, 4.5}, {4.5, 0.5}}, 2.0));  // in the middle at t = 4, as robot 0 would be
   EXPECT_NEAR(plan_first(p).cost, 8.0 + 0.8 * std::sqrt(2.0), kTime);
 }
 
 TEST(AaSipp, GoesFirstIfRobotsJustTouch) {
   Planning p(crossing(), {robot_at(0.5, 2.5).to(8.5, 2.5), robot_at(4.5, 4.5).to(4.5, 0.5)});
-  p.state.follow(1, through({{4.5, 4.5}, {4.5, 0.5}}, 2.0 + 0.8 * std::sqrt(2.0)));
+  p.reservations.follow(1, through({{4.5, 4.5}, {4.5, 0.5}}, 2.0 + 0.8 * std::sqrt(2.0)));
   EXPECT_NEAR(plan_first(p).cost, 8.0, kTime);
 }
 
@@ -102,7 +103,7 @@ TEST(AaSipp, StepsIntoBayToLetAnotherRobotPass) {
   Planning p(support::ascii_map({"###.###",  //
                                  "......."}),
              {robot_at(0.5, 0.5).to(6.5, 0.5), robot_at(6.5, 0.5).to(0.5, 0.5)});
-  p.state.follow(1, through({{6.5, 0.5}, {0.5, 0.5}}, 6.0));
+  p.reservations.follow(1, through({{6.5, 0.5}, {0.5, 0.5}}, 6.0));
   const Trajectory trajectory = plan_first(p);
   const bool in_bay = std::any_of(trajectory.moves.begin(), trajectory.moves.end(),
                                   [](const auto& move) { return move.path.to == Position(3.5, 1.5); });
@@ -112,13 +113,13 @@ TEST(AaSipp, StepsIntoBayToLetAnotherRobotPass) {
 
 TEST(AaSipp, ArrivesAtGoalOnceItIsFree) {
   Planning p(OccupancyGrid(10, 1, 1.0), {robot_at(0.5, 0.5).to(5.5, 0.5), robot_at(5.5, 0.5).to(9.5, 0.5)});
-  p.state.follow(1, through({{5.5, 0.5}, {9.5, 0.5}}, 10.0));
+  p.reservations.follow(1, through({{5.5, 0.5}, {9.5, 0.5}}, 10.0));
   EXPECT_NEAR(plan_first(p).cost, 10.8, kTime) << "the other robot is a diameter ahead";
 }
 
 TEST(AaSipp, DoesNotRestAtGoalBeforeOthersHavePassed) {
   Planning p(crossing(), {robot_at(0.5, 2.5).to(4.5, 2.5), robot_at(4.5, 4.5).to(4.5, 0.5)});
-  p.state.follow(1, through({{4.5, 4.5}, {4.5, 0.5}}, 20.0));
+  p.reservations.follow(1, through({{4.5, 4.5}, {4.5, 0.5}}, 20.0));
   EXPECT_NEAR(plan_first(p).cost, 22.0 + 0.8 * std::sqrt(2.0), kTime);
 }
 
@@ -138,7 +139,7 @@ TEST(AaSipp, RotatesInPlaceIfOnlyHeadingDiffers) {
 
 TEST(AaSipp, StepsAsideAndReturnsIfGoalIsStart) {
   Planning p(crossing(), {robot_at(4.5, 2.5).to(4.5, 2.5), robot_at(0.5, 2.5).to(8.5, 2.5)});
-  p.state.follow(1, through({{0.5, 2.5}, {8.5, 2.5}}, 1.0));
+  p.reservations.follow(1, through({{0.5, 2.5}, {8.5, 2.5}}, 1.0));
   const Trajectory trajectory = plan_first(p);
   ASSERT_GE(trajectory.moves.size(), 2u);
   EXPECT_EQ(trajectory.end(), Position(4.5, 2.5));
@@ -148,13 +149,13 @@ TEST(AaSipp, StepsAsideAndReturnsIfGoalIsStart) {
 
 TEST(AaSipp, StepsAsideAndReturnsOffLattice) {
   Planning p(crossing(), {robot_at(4.55, 2.45).to(4.55, 2.45), robot_at(0.5, 2.5).to(8.5, 2.5)});
-  p.state.follow(1, through({{0.5, 2.5}, {8.5, 2.5}}, 1.0));
+  p.reservations.follow(1, through({{0.5, 2.5}, {8.5, 2.5}}, 1.0));
   EXPECT_EQ(plan_first(p).end(), Position(4.55, 2.45));
 }
 
 TEST(AaSipp, ProvesThatNoPathLeadsPastParkedRobot) {
   Planning p(crossing(), {robot_at(0.5, 2.5).to(8.5, 2.5), robot_at(4.5, 2.5), robot_at(8.0, 2.5)});
-  p.state.stay_in_place(1);
+  p.reservations.stay_in_place(1);
   const SearchResult result = p.state.plan(0, kExact, p.never);
   EXPECT_FALSE(result.trajectory);
   EXPECT_TRUE(result.complete);
@@ -162,7 +163,7 @@ TEST(AaSipp, ProvesThatNoPathLeadsPastParkedRobot) {
 
 TEST(AaSipp, RejectsOccupiedGoalWithoutExpansions) {
   Planning p(OccupancyGrid(9, 5, 1.0), {robot_at(0.5, 2.5).to(8.5, 2.5), robot_at(8.0, 2.5)});
-  p.state.stay_in_place(1);
+  p.reservations.stay_in_place(1);
   const SearchResult result = p.state.plan(0, kExact, p.never);
   EXPECT_FALSE(result.trajectory);
   EXPECT_TRUE(result.complete);

@@ -69,7 +69,7 @@ TEST(CostToGo, IsInfiniteIfGoalIsUnreachable) {
                                                    "..#.."});
   Planning p(closed, {robot_at(1.5, 0.5).to(3.5, 0.5)});
   EXPECT_EQ(from_start(p).seconds, kForever);
-  EXPECT_TRUE(p.state.way_to_goal(0, 1000, p.never).none());
+  EXPECT_TRUE(p.state.ways().way_to_goal(0, 1000, p.never).none());
   Planning wide(wall(), {robot_at(1.0, 1.0).to(4.0, 1.0).radius(0.6)});
   EXPECT_EQ(from_start(wide).seconds, kForever) << "too wide for the gap above the wall";
 }

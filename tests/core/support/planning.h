@@ -46,10 +46,11 @@ struct Planning {
   Problem problem;
   Instance instance;
   PlanState state;
+  FleetReservations& reservations{state.reservations()};
   Random random;
   StopCondition never = StopCondition::never();
   CallerThread callers_thread;
-  ProgressReport progress{state, nullptr};  // no observer
+  ProgressReport progress{reservations, nullptr};  // no observer
 };
 
 /// A stop condition that is met.

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "core/instance/instance.h"
+#include "core/model/loads.h"
+#include "core/model/trajectory.h"
+#include "core/reservation/reservation_table.h"
+
+namespace fleetplan::core {
+
+/// The reservations of all robots while a plan is made, and who conflicts with whom.
+///
+/// The committed motion of every robot is always reserved. After it a robot is in one of four states: it
+/// follows a trajectory, stays in its place for ever, holds its place for some time, or has no reservation
+/// (the initial state). Its place is its start, or the end of its committed motion.
+class FleetReservations {
+ public:
+  /// Called when a robot stops staying for ever; none if that may be so for any of them.
+  using OnLeave = std::function<void(std::optional<std::size_t> robot)>;
+
+  /// `instance` outlives this object.
+  FleetReservations(const Instance& instance, OnLeave on_leave);
+
+  const Instance& instance() const { return instance_; }
+
+  /// Each of these replaces the robot's reservation. A trajectory begins with the committed motion.
+  void follow(std::size_t robot, Trajectory trajectory);
+  void stay_in_place(std::size_t robot);
+  /// For so many seconds from the end of the committed motion on; kForever: it stays.
+  void reserve_place(std::size_t robot, double seconds);
+  void remove(std::size_t robot);
+
+  /// None for a robot that does not follow a trajectory.
+  const std::optional<Trajectory>& trajectory(std::size_t robot) const {
+    return reserved_.trajectories[robot];
+  }
+  /// For how many seconds from the end of its committed motion on the robot reserves its place; 0 if it
+  /// follows a trajectory or has no reservation, kForever if it stays.
+  double holds_place_for(std::size_t robot) const { return reserved_.holds_place_for[robot]; }
+  bool stays(std::size_t robot) const { return holds_place_for(robot) == kForever; }
+  /// The number of robots that follow a trajectory.
+  std::size_t planned_count() const { return planned_count_; }
+  bool any_stays() const { return staying_count_ > 0; }
+  /// The robots that stay, ascending.
+  std::vector<std::size_t> staying_robots() const;
+
+  /// The reservations of all robots, to return to them.
+  struct Snapshot {
+    std::vector<std::optional<Trajectory>> trajectories;
+    std::vector<double> holds_place_for;  // seconds, see holds_place_for()
+  };
+  Snapshot snapshot() const { return reserved_; }
+  /// Replaces all reservations.
+  void restore(Snapshot wanted);
+  /// Replaces them, but not in the table of the searches, which takes hardly any time. Until resume() or
+  /// restore(), only trajectories and places may be asked for: no search and no question about conflicts.
+  void set_without_table(Snapshot wanted);
+  /// Puts what set_without_table() has set into the table of the searches, too.
+  void resume();
+
+  /// The robots whose reservations conflict with the trajectory, ascending. Committed motion is left out, of
+  /// this robot and of the others: it does not change.
+  std::vector<std::size_t> conflicting_robots(std::size_t robot, const Trajectory& trajectory) const;
+  /// The robots whose committed motion conflicts with what follows the robot's own commitment, ascending.
+  std::vector<std::size_t> robots_committed_against(std::size_t robot, const Trajectory& trajectory) const;
+  /// The robots whose reservations conflict with the robot's staying, ascending; committed motion is left
+  /// out.
+  std::vector<std::size_t> robots_crossing_place(std::size_t robot) const;
+
+  /// The table that searches ask.
+  const ReservationTable& table() const { return table_; }
+
+  // For a single search, the table may differ from what the robots do.
+
+  /// Searches, and questions about conflicts, leave out the reservation of an ignored robot.
+  void ignore(std::size_t robot, bool ignored) { table_.ignore(robot, ignored); }
+  /// Reserves only what comes before `t` (seconds) of the trajectory that the robot follows.
+  void shorten(std::size_t robot, double t);
+  /// Undoes shorten().
+  void lengthen(std::size_t robot);
+  /// Reserves the place of a goal (by its position in Itinerary::goals) for a robot without a reservation:
+  /// for ever, from so late on that others may leave before. remove() undoes that.
+  void reserve_goal(std::size_t robot, std::size_t goal);
+
+ private:
+  bool is_reserved(std::size_t robot, const Snapshot& among) const;
+  std::vector<SizedSegment> after_commitment(std::size_t robot, const Trajectory& trajectory) const;
+
+  const Instance& instance_;
+  const OnLeave on_leave_;
+  ReservationTable table_;
+  Snapshot reserved_;
+  bool is_in_table_ = true;  // what reserved_ has
+  std::size_t planned_count_ = 0;
+  std::size_t staying_count_ = 0;
+};
+
+/// The largest disk of each robot at any time, by robot.
+std::vector<LargestDisk> largest_disks(const Instance& instance);
+
+}  // namespace fleetplan::core

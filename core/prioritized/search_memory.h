@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <new>
+
+#include "core/instance/instance.h"
+#include "core/reservation/reservation_table.h"
+#include "core/runtime/memory_account.h"
+#include "core/runtime/stop_condition.h"
+#include "core/sipp/aa_sipp.h"
+#include "core/sipp/search_space.h"
+
+namespace fleetplan::core {
+
+/// What searches keep for later ones: the search spaces of robots, and the arrays of a search. When the job's
+/// memory is short (see MemoryAccount), it is given up.
+class SearchMemory {
+ public:
+  /// The arguments outlive this object.
+  SearchMemory(const Instance& instance, const ReservationTable& table) : spaces_(instance), search_(table) {}
+
+  /// Returns the search space of a robot, valid until the next call for another robot; null if `stop` is met
+  /// before it is made.
+  SearchSpace* space_of(std::size_t robot, const StopCondition& stop) { return spaces_.of(robot, stop); }
+  /// The search among the reservations of the table.
+  AaSipp& search() { return search_; }
+
+  /// Returns what `compute` returns, or `otherwise` if the memory for it is not granted.
+  template <class Result, class Compute>
+  Result within_memory(Result otherwise, const Compute& compute) {
+    bool is_spent = false;
+    try {
+      otherwise = compute();
+    } catch (const std::bad_alloc&) {
+      is_spent = true;
+    }
+    if (is_spent || is_short_of_memory()) release();
+    return otherwise;
+  }
+
+  /// Gives up what is kept, if memory is short.
+  void relieve() {
+    if (is_short_of_memory()) release();
+  }
+
+ private:
+  void release() {
+    search_.release_memory();
+    spaces_.discard_all();
+  }
+
+  SearchSpaces spaces_;
+  AaSipp search_;
+};
+
+}  // namespace fleetplan::core
