@@ -6,7 +6,6 @@
 #include "core/commitments/contacts.h"
 #include "core/geometry/motion_tree.h"
 #include "core/geometry/segment.h"
-#include "core/model/loads.h"
 #include "core/model/surroundings.h"
 #include "core/runtime/stop_condition.h"
 

@@ -1,9 +1,10 @@
 #pragma once
 
-// Segments of the plane, alone and with times; and intervals of time.
+// Segments of the plane, alone, with times and with the disks of robots; and intervals of time.
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include "core/geometry/position.h"
@@ -119,6 +120,27 @@ struct TimedSegment {
     const double d = duration();
     return d > 0.0 && d < kForever ? Position((path.to - path.from) / d) : Position(0.0, 0.0);
   }
+};
+
+/// A timed segment and the radius that the robot has on it.
+struct SizedSegment : TimedSegment {
+  double radius = 0.0;  // metres; neither inflation nor vicinity included
+};
+
+/// The disk with which a robot stands or moves somewhere.
+struct Footprint {
+  std::size_t robot = 0;
+  double radius = 0.0;    // metres; neither inflation nor vicinity included
+  bool has_left = false;  // the robot's start, even if it stands there again
+};
+
+/// The largest disk that a robot ever has.
+struct LargestDisk {
+  double radius = 0.0;       // metres; neither inflation nor vicinity included
+  double pair_radius = 0.0;  // metres, to other robots: with inflation and vicinity
+
+  /// To other robots, while the robot has a radius that may be smaller.
+  double pair_radius_with(double smaller) const { return pair_radius - (radius - smaller); }
 };
 
 /// Closed interval [begin, end] of times at which a disk may stand at a position; end may be kForever.

@@ -8,7 +8,6 @@
 #include "core/geometry/bucket_grid.h"
 #include "core/geometry/disk_motion.h"
 #include "core/geometry/segment.h"
-#include "core/model/loads.h"
 #include "core/runtime/arrays.h"
 
 namespace fleetplan::core {

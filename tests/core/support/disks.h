@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/geometry/segment.h"
-#include "core/model/loads.h"
 
 namespace fleetplan::core {
 
