@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "core/geometry/position.h"
-#include "core/instance/instance.h"
 #include "core/model/itinerary.h"
+#include "core/model/motion.h"
+#include "core/model/plan_options.h"
 #include "core/model/robot.h"
 
 namespace fleetplan::core {

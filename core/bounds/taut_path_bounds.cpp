@@ -7,6 +7,9 @@
 #include <new>
 #include <span>
 
+#include "core/instance/instance.h"
+#include "core/instance/static_fit.h"
+
 namespace fleetplan::core {
 namespace {
 
@@ -178,12 +181,12 @@ constexpr std::int64_t kLegsBetweenStops = 64;
 
 /// Whether the robot's disk is clear of obstacles at both ends of a leg. Elsewhere it always is.
 bool fits_at_ends(const Instance& instance, std::size_t robot, std::size_t leg) {
-  const double radius = instance.motion(robot, leg).radius;
+  const double radius = instance.stages(robot)[leg].motion.radius;
   const std::vector<Goal>& goals = instance.itinerary(robot).goals;
   const auto fits_at = [&](const Goal& goal) {
-    return instance.radius_at_goal(robot, goal.position, leg) == radius;
+    return radius_at_goal(instance, robot, goal.position, leg) == radius;
   };
-  const bool fits_at_begin = leg == 0 ? instance.fits_at_start(robot) : fits_at(goals[leg - 1]);
+  const bool fits_at_begin = leg == 0 ? fits_at_start(instance, robot) : fits_at(goals[leg - 1]);
   return fits_at_begin && fits_at(goals[leg]);
 }
 
@@ -218,7 +221,7 @@ struct TautPathBounds::Way {
 
   Way(const Instance& instance, std::size_t robot) : legs(legs_of(instance.itinerary(robot))) {
     for (const GoalLeg& leg : legs) {
-      seconds.push_back(lower_bound(leg, instance.motion(robot, seconds.size())));
+      seconds.push_back(lower_bound(leg, instance.stages(robot)[seconds.size()].motion));
     }
   }
   /// The most seconds that the leg takes in the cheapest plan, if there is a plan of this cost.
@@ -251,7 +254,7 @@ void TautPathBounds::bound(const Instance& instance, const std::vector<std::size
     seconds_[robot] = end_after(instance.itinerary(robot), way.seconds);
     for (std::size_t leg = 0; leg < way.legs.size() && !cut_off_; ++leg) {
       if (++tested % kLegsBetweenStops == 0) cut_off_ = stop.met();
-      const double radius = instance.motion(robot, leg).radius;
+      const double radius = instance.stages(robot)[leg].motion.radius;
       const double reduced = radius - 2.0 * TangentGraph::kRadiusReduction;
       if (reduced <= 0.0) continue;
       if (is_straight(instance, way.legs[leg], reduced) || !fits_at_ends(instance, robot, leg)) continue;
@@ -288,7 +291,7 @@ void TautPathBounds::improve(const Instance& instance, const LegsByRadius& out_o
       const double most = way.most_seconds(itinerary, index.leg, costs[index.robot]);
       const std::int64_t before = search.work();
       const GoalLeg& leg = way.legs[index.leg];
-      const Motion motion = without_turns_if_reversing(instance.motion(index.robot, index.leg));
+      const Motion motion = without_turns_if_reversing(instance.stages(index.robot)[index.leg].motion);
       const TautPathResult result = search.run(leg, motion, most, work / kWorkDivisor, stop);
       work -= search.work() - before;
       const double turn = instance.motion(index.robot).may_reverse && leg.heading && leg.to.theta

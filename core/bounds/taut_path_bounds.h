@@ -10,11 +10,13 @@
 #include "core/bounds/corner_visibility.h"
 #include "core/bounds/lower_bound.h"
 #include "core/bounds/tangent_graph.h"
-#include "core/instance/instance.h"
+#include "core/map/line_of_sight.h"
 #include "core/runtime/arrays.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
+
+class Instance;
 
 /// A lower bound of the cost of every path.
 struct TautPathResult {

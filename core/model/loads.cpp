@@ -145,6 +145,16 @@ std::vector<SizedSegment> with_radii(const std::vector<TimedSegment>& segments, 
   return sized;
 }
 
+std::vector<SizedSegment> sized_segments(const Robot& robot, const Itinerary& itinerary,
+                                         const Trajectory& trajectory) {
+  const std::vector<TimedSegment> segments = timed_segments(trajectory);
+  if (!changes_radius(robot)) return with_radii(segments, robot, {});
+  std::vector<Visit> visits = itinerary.visited;
+  visits.insert(visits.end(), trajectory.visits.begin(), trajectory.visits.end());
+  if (robot.goal) visits.push_back({robot.via.size(), 0.0, trajectory.last_served});
+  return with_radii(segments, robot, radius_steps(robot, visits));
+}
+
 std::vector<SizedSegment> committed_segments(const Robot& robot, const Itinerary& itinerary) {
   if (itinerary.t_begin <= 0.0) return {};
   std::vector<TimedSegment> segments = timed_segments(itinerary.committed);

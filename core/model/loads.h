@@ -106,4 +106,8 @@ std::vector<SizedSegment> certain_segments(const Robot& robot, const Itinerary& 
 std::vector<SizedSegment> with_radii(const std::vector<TimedSegment>& segments, const Robot& robot,
                                      const std::vector<RadiusStep>& steps);
 
+/// The segments of a robot's trajectory, contiguous from t = 0 on; see with_radii.
+std::vector<SizedSegment> sized_segments(const Robot& robot, const Itinerary& itinerary,
+                                         const Trajectory& trajectory);
+
 }  // namespace fleetplan::core

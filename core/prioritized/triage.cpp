@@ -17,6 +17,7 @@
 #include "core/geometry/position.h"
 #include "core/geometry/tolerance.h"
 #include "core/instance/instance.h"
+#include "core/instance/static_fit.h"
 
 namespace fleetplan::core {
 namespace {
@@ -140,7 +141,7 @@ class Triage {
     }
   }
   bool may_leave(std::size_t robot) {
-    const bool is_free = instance_.fits_at_start(robot) || ways_.can_leave_place(robot, stop_);
+    const bool is_free = fits_at_start(instance_, robot) || ways_.can_leave_place(robot, stop_);
     return is_free && !instance_.contacts().too_many(robot);
   }
   bool is_kept(std::size_t robot) const { return !kept_.empty() && kept_[robot]; }
@@ -167,7 +168,7 @@ class Triage {
   }
 
   void check_start(std::size_t i) {
-    if (!instance_.fits_at_start(i) && !ways_.can_leave_place(i, stop_)) {
+    if (!fits_at_start(instance_, i) && !ways_.can_leave_place(i, stop_)) {
       return give_up(
           i, Reason::start_blocked,
           "The inflated robot does not fit between the obstacles at its start, and no straight move "
@@ -179,7 +180,7 @@ class Triage {
   }
 
   void check_goal(std::size_t i) {
-    if (!instance_.fits_at_goal(i)) {
+    if (!fits_at_goals(instance_, i)) {
       return give_up(i, Reason::goal_blocked,
                      "The inflated robot does not fit between the obstacles at its goal.");
     }
@@ -338,8 +339,8 @@ class ZonesInTheWay {
     if (alone == nullptr) return true;
     const Instance instance(*alone, options_, stop_);
     PlanState state(instance);
-    if (!instance.fits_at_start(0) && !state.ways().can_leave_place(0, stop_)) return false;
-    return instance.fits_at_goal(0) && !state.ways().way_to_goal(0, kMostWayExpansions, stop_).none();
+    if (!fits_at_start(instance, 0) && !state.ways().can_leave_place(0, stop_)) return false;
+    return fits_at_goals(instance, 0) && !state.ways().way_to_goal(0, kMostWayExpansions, stop_).none();
   }
 
   const Problem& problem_;

@@ -13,7 +13,7 @@
 
 #include "core/geometry/position.h"
 #include "core/geometry/segment.h"
-#include "core/instance/instance.h"
+#include "core/model/motion.h"
 #include "core/runtime/arrays.h"
 #include "core/runtime/stop_condition.h"
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/geometry/tolerance.h"
+#include "core/instance/static_fit.h"
 #include "core/map/refinement.h"
 #include "core/runtime/memory_account.h"
 
@@ -25,12 +26,12 @@ constexpr std::size_t kWorkBetweenPolls = 16 * 1024;
 
 Vertices::Vertices(const Instance& instance, std::size_t robot, std::size_t stage)
     : stage_(stage),
-      motion_(instance.motion(robot, stage)),
-      zones_(instance.drive_zones(robot, stage)),
+      motion_(instance.stages(robot)[stage].motion),
+      zones_(instance.stages(robot)[stage].zones.get()),
       slowest_motion_(motion_),
       lattice_(instance.lattice(robot)),
       grid_(instance.problem().grid()),
-      space_(instance.free_space(robot, stage)),
+      space_(*instance.stages(robot)[stage].free_space),
       finer_(space_.finer()),
       first_own_(lattice_.vertex_count() + finer_.count()),
       any_angle_(instance.options().any_angle),
@@ -54,14 +55,14 @@ void Vertices::begin_at(const Instance& instance, std::size_t robot) {
   start_pose_ = instance.itinerary(robot).pose;
   const int goal = goals_.front().vertex;
   start_ = is_same_position(start_pose_.position, position(goal)) ? goal : add_start(instance, robot);
-  never_entered_ = start_ != goal && !instance.is_clear_at_start(robot) ? start_ : -1;
+  never_entered_ = start_ != goal && !is_clear_at_start(instance, robot) ? start_ : -1;
 }
 
 Vertices::Vertices(const Instance& instance, std::size_t robot, std::size_t stage, const StopCondition& stop)
     : Vertices(instance, robot, stage) {
-  const Load& load = instance.load(robot, stage);
-  if (instance.load(robot, 0) == load) start_ = add_start(instance, robot);
-  if (start_ >= 0 && !instance.is_clear_at_start(robot)) never_entered_ = start_;
+  const Load& load = instance.stages(robot)[stage].load;
+  if (instance.stages(robot)[0].load == load) start_ = add_start(instance, robot);
+  if (start_ >= 0 && !is_clear_at_start(instance, robot)) never_entered_ = start_;
   // Committed actions that end in contact with the goal end there: a service goes on, without a move.
   double same = instance.robot(robot).committed.empty() ? kSamePosition : kContactTolerance;
   const std::vector<Goal>& goals = instance.itinerary(robot).goals;
@@ -80,7 +81,7 @@ Vertices::Vertices(const Instance& instance, std::size_t robot, std::size_t stag
       goals_.push_back({goals_.empty() ? start_ : goals_.back().vertex, std::nullopt});
       continue;
     }
-    const bool is_here = instance.load(robot, k) == load || instance.load(robot, k + 1) == load;
+    const bool is_here = instance.stages(robot)[k].load == load || instance.stages(robot)[k + 1].load == load;
     const bool at_start = start_ >= 0 && (goal.position - start_pose_.position).norm() <= same;
     const int vertex = at_start ? start_ : is_here ? add_goal(instance, robot, goal.position) : -1;
     goals_.push_back({vertex, goal.theta});
@@ -92,7 +93,7 @@ int Vertices::add_start(const Instance& instance, std::size_t robot) {
   const Leaving* leaving = instance.problem().leaving(robot);
   if (leaving != nullptr && !leaving->way_out.empty()) return add_way_out(leaving->way_out);
   const Position& position = start_pose_.position;
-  const double radius = instance.radius_at_start(robot);
+  const double radius = radius_at_start(instance, robot);
   const double too_near = instance.problem().one_at_a_time() ? 0.0 : instance.contacts().deficit(robot);
   const double deficit = std::max(motion_.radius - radius, too_near);
   const int vertex = vertex_at(position);
@@ -146,7 +147,7 @@ int Vertices::own_vertex_at(const Position& position) const {
 }
 
 int Vertices::add_goal(const Instance& instance, std::size_t robot, const Position& position) {
-  const double radius = instance.radius_at_goal(robot, position, stage_);
+  const double radius = radius_at_goal(instance, robot, position, stage_);
   const int vertex = vertex_at(position);
   if (vertex >= 0 && radius == motion_.radius) return vertex;
   const int own = own_vertex_at(position);
@@ -252,9 +253,9 @@ void SearchSpace::begin_at(std::size_t robot, bool any_heading) {
 }
 
 void SearchSpace::add_layers(const StopCondition& stop) {
-  std::map<Load, std::size_t> layer_of_load{{instance_.load(robot_, 0), 0}};
+  std::map<Load, std::size_t> layer_of_load{{instance_.stages(robot_)[0].load, 0}};
   for (std::size_t stage = 0; stage <= goal_count(); ++stage) {
-    const auto [known, is_new] = layer_of_load.emplace(instance_.load(robot_, stage), layers_.size());
+    const auto [known, is_new] = layer_of_load.emplace(instance_.stages(robot_)[stage].load, layers_.size());
     layer_of_stage_.push_back(known->second);
     if (!is_new) continue;
     const int first_vertex = vertex_count();

@@ -228,15 +228,15 @@ class SearchSpace {
     return stage == 0 ? vertices().start() : vertices(stage).goals()[stage - 1].vertex;
   }
 
-  bool changes_load() const { return instance_.changes_load(robot_); }
+  bool changes_load() const { return instance_.stages(robot_).changes_load(); }
   /// Whether it has another radius at rest at the last goal, after the service there.
   bool rests_with_other_radius() const {
     return changes_load() && radius(goal_count()) != radius(goal_count() - 1);
   }
   /// The radius in a stage or, with goal_count(), at rest at the last goal; metres, inflation included.
-  double radius(std::size_t stage) const { return instance_.motion(robot_, stage).radius; }
+  double radius(std::size_t stage) const { return instance_.stages(robot_)[stage].motion.radius; }
   Footprint footprint(std::size_t stage) const {
-    return {robot_, instance_.radius(robot_, stage), stage > goals_at_start_};
+    return {robot_, instance_.stages(robot_)[stage].load.radius, stage > goals_at_start_};
   }
   /// Whether the robot need not move for any of its goals.
   bool all_goals_at_start() const { return goals_at_start_ == goal_count(); }

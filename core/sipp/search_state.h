@@ -12,7 +12,7 @@
 #include "core/geometry/position.h"
 #include "core/geometry/segment.h"
 #include "core/geometry/tolerance.h"
-#include "core/instance/instance.h"
+#include "core/model/motion.h"
 #include "core/runtime/arrays.h"
 #include "core/sipp/cost_to_go.h"
 

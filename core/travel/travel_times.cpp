@@ -11,6 +11,7 @@
 
 #include "core/geometry/segment.h"
 #include "core/instance/instance.h"
+#include "core/instance/static_fit.h"
 #include "core/model/itinerary.h"
 #include "core/model/loads.h"
 #include "core/reservation/reservation_table.h"
@@ -42,7 +43,7 @@ class Travels {
       : instance_(like == nullptr ? Instance(problem, options, stop)
                                   : Instance(problem, options, like->fixed_reservations(), stop)),
         nobody_(problem.grid().width(), problem.grid().height(), problem.grid().width(),
-                std::vector<LargestDisk>(problem.robots().size(), instance_.largest_disk(0))),
+                std::vector<LargestDisk>(problem.robots().size(), instance_.stages(0).largest_disk())),
         search_(nobody_) {}
 
   const Instance& instance() const { return instance_; }
@@ -51,13 +52,13 @@ class Travels {
   std::vector<std::optional<Travel>> column(const TravelQuestions::Column& asked,
                                             const std::vector<bool>& any_heading, const StopCondition& stop) {
     std::vector<std::optional<Travel>> ways(asked.robots.size());
-    if (asked.robots.empty() || !instance_.fits_at(asked.robots.front(), asked.goal.position)) return ways;
+    if (asked.robots.empty() || !fits_at(instance_, asked.robots.front(), asked.goal.position)) return ways;
     SearchSpace space(instance_, asked.robots.front(), asked.goal);
     for (std::size_t k = 0; k < ways.size() && !stop.met(); ++k) {
       const std::size_t robot = asked.robots[k];
       space.begin_at(robot, any_heading[robot]);
       const auto way = this->way(space, stop);
-      if (way && way->seconds < instance_.longest_plan(robot)) ways[k] = way;
+      if (way && way->seconds < instance_.stages(robot).longest_plan()) ways[k] = way;
     }
     return ways;
   }

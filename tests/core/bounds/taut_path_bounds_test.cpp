@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/bounds/lower_bound.h"
+#include "core/instance/static_fit.h"
 #include "tests/core/support/planning.h"
 #include "tests/support/random_problem.h"
 
@@ -297,7 +298,7 @@ TEST(TautPathBounds, DoNotIncreaseWhereObstaclesAreRemoved) {
     if (!problem.robots()[0].goal) continue;
     const PlanOptions options = support::random_options(dice, problem);
     if (!cost_alone(problem, options)) continue;  // without a path the bound is the straight line
-    if (!Instance(problem, options, StopCondition::never()).fits_at_start(0)) continue;  // likewise
+    if (!fits_at_start(Instance(problem, options, StopCondition::never()), 0)) continue;  // likewise
     const OccupancyGrid& grid = problem.grid();
     OccupancyGrid fewer(grid.columns(), grid.rows(), grid.resolution());
     for (int row = 0; row < grid.rows(); ++row) {
