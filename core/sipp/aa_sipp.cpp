@@ -236,8 +236,8 @@ bool Search::begin(Pass pass) {
   dominated_.begin(pass, uses_slack);
   end_.begin();
   state_.clear(static_cast<std::size_t>(space_.vertex_count()));
-  const double slack = uses_slack ? limits_.dominance_slack * space_.vertices().spacing() : 0.0;
-  state_.dominance.reset(space_.vertices().slowest_motion(), motion_.translation_time(slack));
+  const double slack = uses_slack ? limits_.dominance_slack * space_.vertices().lattice().spacing() : 0.0;
+  state_.dominance.reset(space_.vertices().times().slowest_motion(), motion_.translation_time(slack));
   stopped_ = !goals_.begin(stop_);
   if (stopped_ || !goals_.end_at(successors_.goal_of(goals_.last_stage()))) return false;
   return goals_.has_horizon() || can_serve_all();
@@ -254,7 +254,7 @@ bool Search::can_serve_all() {
 
 /// The heading in which the robot begins; if it may have any, the best one by the estimate.
 double Search::heading_at_start(PlaceId start) const {
-  if (!space_.any_heading_at_start()) return space_.vertices().start_pose().theta;
+  if (!space_.any_heading_at_start()) return space_.itinerary().pose.theta;
   const CostToGo::Estimate& estimate = state_.places[start].estimate;
   const bool is_ahead = estimate.seconds <= estimate.reverse_seconds;
   return is_ahead ? estimate.heading : opposite_heading(estimate.heading);

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "core/geometry/tolerance.h"
-#include "core/sipp/search_space.h"
+#include "core/sipp/vertices.h"
 
 namespace fleetplan::core {
 namespace {
@@ -43,7 +43,7 @@ std::optional<bool> TimesFromStart::reach_goal(std::int64_t max_expansions, cons
 
 void TimesFromStart::expand(const Open& best) {
   const Position here = vertices_.position(best.vertex);
-  const double speed = vertices_.linear_speed(best.vertex);
+  const double speed = vertices_.times().linear_speed(here);
   vertices_.for_each_neighbour(best.vertex, [&](int neighbour) {
     if (!vertices_.allow(best.vertex, neighbour)) return;
     const double length = (vertices_.position(neighbour) - here).norm();
@@ -77,25 +77,26 @@ class CostToGo::BackwardSearch {
         goal_heading_(vertices.goals()[goal].heading),
         start_(goal == 0 ? vertices.start() : vertices.goals()[goal - 1].vertex),
         start_position_(start_ >= 0 ? vertices.position(start_) : Position(0.0, 0.0)),
-        shortening_(vertices.any_angle() ? 1.0 - kShortened * (1.0 - vertices.least_straight()) : 1.0),
+        shortening_(vertices.any_angle() ? 1.0 - kShortened * (1.0 - vertices.lattice().least_straight())
+                                         : 1.0),
         nodes_(static_cast<std::size_t>(vertices.count())),
         reverse_seconds_(motion_.may_reverse ? static_cast<std::size_t>(vertices.count()) : 0),
-        first_late_(start_ >= 0 ? vertices.count() : vertices.first_late()) {
+        first_start_vertex_(vertices.count()) {
     if (start_ >= 0) from_start_.emplace(vertices, start_, goal_);
   }
 
-  void begin_late() {
+  void replace_start() {
     nodes_.grow(static_cast<std::size_t>(vertices_.count()));
     if (motion_.may_reverse) reverse_seconds_.grow(static_cast<std::size_t>(vertices_.count()));
-    for (int vertex = first_late_; vertex < vertices_.count(); ++vertex) {
+    for (int vertex = first_start_vertex_; vertex < vertices_.count(); ++vertex) {
       node(vertex) = Node();
       set_none(vertex);
     }
-    late_known_ = first_late_ == vertices_.count();
+    start_known_ = first_start_vertex_ == vertices_.count();
   }
 
   Estimate from(int vertex, const StopCondition& stop) {
-    if (vertex >= first_late_ && !late_known_) estimate_late(stop);
+    if (vertex >= first_start_vertex_ && !start_known_) estimate_start(stop);
     Estimate straight;
     straight.seconds = kForever;
     if (vertices_.any_angle() && goal_in_sight(vertex)) {
@@ -165,11 +166,16 @@ class CostToGo::BackwardSearch {
   double least(const Node& node, int vertex) { return std::min(node.seconds, reverse_seconds(vertex)); }
   void set(Node& node, int vertex, int next, const Estimate& estimate);
   void set_none(int vertex);
-  void estimate_late(const StopCondition& stop);
-  bool estimate_late(int vertex, const StopCondition& stop);
+  void estimate_start(const StopCondition& stop);
+  bool estimate_start(int vertex, const StopCondition& stop);
   bool settle(int vertex, const StopCondition& stop);
   void begin(const StopCondition& stop);
   double seconds_from_start(int vertex);
+  double translation_time(int from, int to, double length) const {
+    return vertices_.times().translation_time(length, [&] {
+      return Segment{vertices_.position(from), vertices_.position(to)};
+    });
+  }
   Estimate via(int vertex, int next);
   void add_onward(Estimate& estimate, int next, double length);
   bool goal_in_sight(int vertex);
@@ -192,8 +198,9 @@ class CostToGo::BackwardSearch {
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open_;
   std::int64_t expansions_ = 0;
   bool has_begun_ = false;
-  const int first_late_;     // the vertices from here on come and go, and are on no way of the others
-  bool late_known_ = false;  // their estimates
+  /// The vertices from here on are those of a start that is replaced. They are on no way of the others.
+  const int first_start_vertex_;
+  bool start_known_ = false;  // their estimates
 };
 
 /// Expands until the cost to go from a vertex is known. Returns false if it has none, or if `stop` is met
@@ -216,19 +223,19 @@ void CostToGo::BackwardSearch::set_none(int vertex) {
   set(n, vertex, goal_, {kForever, 0.0, false});
 }
 
-/// Estimates the late vertices by their neighbours, again and again until nothing changes.
-void CostToGo::BackwardSearch::estimate_late(const StopCondition& stop) {
-  late_known_ = true;
+/// Estimates the vertices of the start by their neighbours, again and again until nothing changes.
+void CostToGo::BackwardSearch::estimate_start(const StopCondition& stop) {
+  start_known_ = true;
   for (bool changed = true; changed && !stop.met();) {
     changed = false;
-    for (int vertex = first_late_; vertex < vertices_.count(); ++vertex) {
-      changed = estimate_late(vertex, stop) || changed;
+    for (int vertex = first_start_vertex_; vertex < vertices_.count(); ++vertex) {
+      changed = estimate_start(vertex, stop) || changed;
     }
   }
 }
 
 /// Returns whether the cost to go is less than before.
-bool CostToGo::BackwardSearch::estimate_late(int vertex, const StopCondition& stop) {
+bool CostToGo::BackwardSearch::estimate_start(int vertex, const StopCondition& stop) {
   Node& n = node(vertex);
   bool changed = false;
   const auto try_by = [&](int next) {
@@ -240,7 +247,7 @@ bool CostToGo::BackwardSearch::estimate_late(int vertex, const StopCondition& st
   vertices_.for_each_neighbour(vertex, [&](int neighbour) {
     if (!vertices_.allow(vertex, neighbour)) return;
     if (neighbour == goal_) return try_by(goal_);
-    if (neighbour < first_late_ && !settle(neighbour, stop)) return;
+    if (neighbour < first_start_vertex_ && !settle(neighbour, stop)) return;
     if (least(node(neighbour), neighbour) == kForever) return;
     try_by(neighbour);
     const int next = node(neighbour).next;
@@ -269,7 +276,7 @@ CostToGo::Estimate CostToGo::BackwardSearch::via(int vertex, int next) {
   const Displacement d = vertices_.between(vertex, next);
   Estimate estimate;
   estimate.heading = d.heading;
-  estimate.seconds = vertices_.translation_time(vertex, next, d.length) + motion_.wait_before_move;
+  estimate.seconds = translation_time(vertex, next, d.length) + motion_.wait_before_move;
   if (motion_.may_reverse) {
     add_onward(estimate, next, d.length);
     return estimate;
@@ -345,7 +352,7 @@ void CostToGo::BackwardSearch::close(int vertex) {
   // Lazy Theta* (Nash, Koenig, Tovey, AAAI 2010): only now is it known that the shortcut is blocked.
   set(n, vertex, n.next, {kForever, n.heading, false});
   vertices_.for_each_neighbour(vertex, [&](int neighbour) {
-    if (neighbour >= first_late_) return;
+    if (neighbour >= first_start_vertex_) return;
     if (neighbour != goal_ && node(neighbour).state != State::closed) return;
     if (!vertices_.allow(vertex, neighbour)) return;
     const Estimate estimate = via(vertex, neighbour);
@@ -366,9 +373,9 @@ void CostToGo::BackwardSearch::expand_best() {
 
 /// Whether a speed zone makes the straight move take longer.
 bool CostToGo::BackwardSearch::is_slowed(int vertex, int next) const {
-  if (!vertices_.limit_speeds()) return false;
+  if (!vertices_.times().limit_speeds()) return false;
   const double length = vertices_.between(vertex, next).length;
-  return vertices_.translation_time(vertex, next, length) > motion_.translation_time(length) + kSameTime;
+  return translation_time(vertex, next, length) > motion_.translation_time(length) + kSameTime;
 }
 
 /// Relaxes the neighbours of a vertex with a first translation straight to `next`. Past slow zones, the one
@@ -377,7 +384,7 @@ void CostToGo::BackwardSearch::relax_neighbours(int vertex, int next) {
   vertices_.for_each_neighbour(vertex, [&](int neighbour) {
     if (!vertices_.allow(neighbour, vertex)) return;
     relax(neighbour, next);
-    if (next != vertex && vertices_.limit_speeds()) relax(neighbour, vertex);
+    if (next != vertex && vertices_.times().limit_speeds()) relax(neighbour, vertex);
   });
 }
 
@@ -385,7 +392,7 @@ CostToGo::CostToGo(const Vertices& vertices, std::size_t goal)
     : search_(std::make_unique<BackwardSearch>(vertices, goal)) {}
 CostToGo::~CostToGo() = default;
 
-void CostToGo::begin_late() { search_->begin_late(); }
+void CostToGo::replace_start() { search_->replace_start(); }
 
 double CostToGo::metres(int vertex) { return search_->metres(vertex); }
 

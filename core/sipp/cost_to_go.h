@@ -97,9 +97,8 @@ class CostToGo {
   explicit CostToGo(const Vertices& vertices, std::size_t goal = 0);
   ~CostToGo();
 
-  /// To be called when Vertices::begin_at() has replaced the start. What is known of all other vertices is
-  /// kept.
-  void begin_late();
+  /// To be called after Vertices::replace_start(). What is known of all other vertices is kept.
+  void replace_start();
 
   /// From any vertex but the goal. If `stop` is met during the search, the estimate is the straight line's.
   Estimate from(int vertex, const StopCondition& stop);

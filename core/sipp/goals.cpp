@@ -178,7 +178,8 @@ ServiceStop Goals::service_stop(const Label& label) const {
   } else {
     if (at_start) stop.t_rest = space_.itinerary().t_begin;  // also if it has to stay there for longer
     if (stage.goal.heading) {
-      stop.t_rest += stage.vertices->rotation_time(stage.goal.vertex, label.heading, *stage.goal.heading);
+      const Position place = stage.vertices->position(stage.goal.vertex);
+      stop.t_rest += stage.vertices->times().rotation_time(place, label.heading, *stage.goal.heading);
       stop.heading = *stage.goal.heading;
     }
   }
@@ -287,9 +288,9 @@ void Goals::append_move(Trajectory& trajectory, const Label& from, const Label& 
   const bool continues = from.by_translation && to.departure == from.arrival && from.reverse == to.reverse &&
                          angle_between(from.heading, to.heading) <= kSameHeading;
   const Segment way{state_.places[from.place].position, state_.places[to.place].position};
-  const Vertices& vertices = *stages_[state_.places[to.place].stage].vertices;
-  if (vertices.limit_speeds() || vertices.motion().linear_inertia.is_limited) {
-    append_pieces(trajectory, vertices.pieces(way), to, continues);
+  const MoveTimes& times = stages_[state_.places[to.place].stage].vertices->times();
+  if (times.limit_speeds() || times.motion().linear_inertia.is_limited) {
+    append_pieces(trajectory, times.pieces(way), to, continues);
   } else if (continues) {
     trajectory.moves.back().path.to = way.to;
     trajectory.moves.back().t_end = to.arrival;

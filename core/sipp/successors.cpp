@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/model/drive_zones.h"
+
 namespace fleetplan::core {
 namespace {
 
@@ -29,7 +31,7 @@ Successors::Successors(const ReservationTable& table, SearchSpace& space, const 
       vertices_(space.vertices()),
       changes_load_(space.changes_load()),
       fastest_(greatest_speed(space)),
-      has_parts_(changes_load_ || vertices_.limit_speeds() || motion_.linear_inertia.is_limited),
+      has_parts_(changes_load_ || vertices_.times().limit_speeds() || motion_.linear_inertia.is_limited),
       may_continue_(motion_.wait_before_move > 0.0 && !motion_.linear_inertia.is_limited) {}
 
 PlaceId Successors::place_of(int vertex, int stage) {
@@ -124,7 +126,7 @@ EdgeId Successors::add_edge(LabelId via, PlaceId target, bool with_shortcut, boo
   const Move local = move_between(via, target, reverse);
   Move shortcut = with_shortcut ? move_between(state_.labels[via].parent, target, reverse) : Move{};
   // Past a slow zone, the way round may be the faster one.
-  const bool is_slower = vertices(state_.places[target].stage).limit_speeds() &&
+  const bool is_slower = vertices(state_.places[target].stage).times().limit_speeds() &&
                          shortcut.ready + shortcut.duration > local.ready + local.duration + kSameTime;
   with_shortcut = with_shortcut && !is_slower;
   if (with_shortcut && !vertices_.any_angle()) {
@@ -145,15 +147,10 @@ inline Move Successors::move_between(LabelId from, PlaceId target, bool reverse)
   Move move;
   move.heading = reverse ? opposite_heading(d.heading) : d.heading;
   move.reverse = reverse;
-  double rotation = 0.0;
-  if (!view.limit_speeds()) {
-    move.duration = view.motion().translation_time(d.length);
-    rotation = motion_.rotation_time(label.heading, move.heading);
-  } else {
-    move.duration = view.zones()->translation_time(here.position, there.position);
-    rotation = motion_.angular_inertia.time(angle_between(label.heading, move.heading),
-                                            view.zones()->angular_speed_at(here.position));
-  }
+  move.duration = view.times().translation_time(d.length, [&] {
+    return Segment{here.position, there.position};
+  });
+  double rotation = view.times().rotation_time(here.position, label.heading, move.heading);
   if (label.parent == LabelId::none && space_.any_heading_at_start()) rotation = 0.0;
   move.ready = label.arrival + rotation + motion_.wait_before_move;
   move.latest = changes_load_ ? goals_.latest_departure(label) : state_.intervals[label.interval].end;
@@ -211,7 +208,7 @@ std::optional<double> Successors::departure(int stage, const Segment& path, doub
                                             double t_max) const {
   const Footprint& footprint = goals_.stage(stage).footprint;
   if (has_parts_) {
-    const std::vector<TimedSegment> parts = parts_of(vertices(stage).pieces(path));
+    const std::vector<TimedSegment> parts = parts_of(vertices(stage).times().pieces(path));
     if (parts.size() > 1 || parts.front().ramp != 0.0) return departure_of(parts, t_min, t_max, footprint);
   }
   return table_.earliest_departure(footprint, path, duration, t_min, t_max);

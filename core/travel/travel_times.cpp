@@ -66,11 +66,12 @@ class Travels {
  private:
   std::optional<Travel> way(SearchSpace& space, const StopCondition& stop) {
     const Vertices& vertices = space.vertices();
-    const double heading = vertices.start_pose().theta;
+    const double heading = space.itinerary().pose.theta;
     const Vertices::GoalPose& goal = vertices.goals().front();
     if (vertices.start() == goal.vertex) {
-      const bool turns = goal.heading && !space.any_heading_at_start();
-      return Travel{turns ? vertices.rotation_time(goal.vertex, heading, *goal.heading) : 0.0, 0.0};
+      if (!goal.heading || space.any_heading_at_start()) return Travel{0.0, 0.0};
+      const Position place = vertices.position(goal.vertex);
+      return Travel{vertices.times().rotation_time(place, heading, *goal.heading), 0.0};
     }
     CostToGo& costs = space.cost_to_go(0);
     const CostToGo::Estimate estimate = costs.from(vertices.start(), stop);
@@ -79,7 +80,7 @@ class Travels {
     const double seconds =
         space.any_heading_at_start() ? estimate.least() : estimate.with_rotation(heading, vertices.motion());
     // In zones that limit speeds, the estimate is not that of a whole way.
-    const bool is_whole = !vertices.limit_speeds();
+    const bool is_whole = !vertices.times().limit_speeds();
     const SearchResult found = search_.run(space, kExact, stop);
     if (found.trajectory && (!is_whole || found.trajectory->cost <= seconds)) {
       return Travel{found.trajectory->cost, metres_of(*found.trajectory)};

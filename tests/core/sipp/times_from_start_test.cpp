@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/sipp/cost_to_go.h"
-#include "core/sipp/search_space.h"
+#include "core/sipp/vertices.h"
 #include "tests/core/support/planning.h"
 #include "tests/support/random_problem.h"
 
@@ -50,10 +50,10 @@ std::vector<double> times_from(const Vertices& vertices, int start) {
 TEST(TimesFromStart, FollowTheWayAroundAWall) {
   Planning p(two_rooms(), {robot_at(1.5, 0.5).to(3.5, 0.5).radius(0.5)});
   const Vertices vertices(p.instance, 0, 0, StopCondition::never());
-  TimesFromStart times(vertices, vertices.start(), vertices.goal());
-  EXPECT_EQ(times.at_least(vertices.goal()), 0.0) << "not yet searched";
+  TimesFromStart times(vertices, vertices.start(), vertices.goals().back().vertex);
+  EXPECT_EQ(times.at_least(vertices.goals().back().vertex), 0.0) << "not yet searched";
   ASSERT_TRUE(times.reach_goal(kUnlimited, p.never).value());
-  EXPECT_NEAR(times.at_least(vertices.goal()), 6.0, kRounding);
+  EXPECT_NEAR(times.at_least(vertices.goals().back().vertex), 6.0, kRounding);
 }
 
 TEST(TimesFromStart, PreferTheFastWayAroundASlowZone) {
@@ -64,24 +64,24 @@ TEST(TimesFromStart, PreferTheFastWayAroundASlowZone) {
   Planning p(
       support::make_problem(OccupancyGrid(5, 3, 1.0), {robot_at(0.5, 0.5).to(4.5, 0.5)}, {.zones = {slow}}));
   const Vertices vertices(p.instance, 0, 0, StopCondition::never());
-  TimesFromStart times(vertices, vertices.start(), vertices.goal());
+  TimesFromStart times(vertices, vertices.start(), vertices.goals().back().vertex);
   ASSERT_TRUE(times.reach_goal(kUnlimited, p.never).value());
-  EXPECT_NEAR(times.at_least(vertices.goal()), 2.0 + 2.0 * std::sqrt(2.0), kRounding)
+  EXPECT_NEAR(times.at_least(vertices.goals().back().vertex), 2.0 + 2.0 * std::sqrt(2.0), kRounding)
       << "10 s through the zone";
 }
 
 TEST(TimesFromStart, TellThatNoWayLeadsToTheGoal) {
   Planning p(two_rooms(), {robot_at(1.0, 1.0).to(4.0, 1.0).radius(0.6)});
   const Vertices vertices(p.instance, 0, 0, StopCondition::never());
-  TimesFromStart times(vertices, vertices.start(), vertices.goal());
+  TimesFromStart times(vertices, vertices.start(), vertices.goals().back().vertex);
   EXPECT_FALSE(times.reach_goal(kUnlimited, p.never).value()) << "too wide for the gap above the wall";
-  EXPECT_EQ(times.at_least(vertices.goal()), 0.0);
+  EXPECT_EQ(times.at_least(vertices.goals().back().vertex), 0.0);
 }
 
 TEST(TimesFromStart, GoOnAfterTheLimit) {
   Planning p(two_rooms(), {robot_at(1.5, 0.5).to(3.5, 0.5).radius(0.5)});
   const Vertices vertices(p.instance, 0, 0, StopCondition::never());
-  TimesFromStart times(vertices, vertices.start(), vertices.goal());
+  TimesFromStart times(vertices, vertices.start(), vertices.goals().back().vertex);
   EXPECT_FALSE(times.reach_goal(2, p.never).has_value());
   EXPECT_EQ(times.expansions(), 2);
   EXPECT_FALSE(times.reach_goal(kUnlimited, met()).has_value()) << "stopped";
@@ -97,13 +97,13 @@ TEST(TimesFromStart, AreLowerBoundsAndExactAtTheGoalOnRandomMaps) {
     if (p.movers().empty()) continue;
     const Vertices vertices(p.instance, p.movers().front(), 0, StopCondition::never());
     const std::vector<double> exact = times_from(vertices, vertices.start());
-    TimesFromStart times(vertices, vertices.start(), vertices.goal());
-    const double to_goal = exact[static_cast<std::size_t>(vertices.goal())];
+    TimesFromStart times(vertices, vertices.start(), vertices.goals().back().vertex);
+    const double to_goal = exact[static_cast<std::size_t>(vertices.goals().back().vertex)];
     ASSERT_EQ(times.reach_goal(kUnlimited, p.never), to_goal < kForever)
         << "seed " << seed << ", round " << round;
     if (to_goal == kForever) continue;
     ++reached;
-    EXPECT_NEAR(times.at_least(vertices.goal()), to_goal, kRounding);
+    EXPECT_NEAR(times.at_least(vertices.goals().back().vertex), to_goal, kRounding);
     for (int vertex = 0; vertex < vertices.count(); ++vertex) {
       EXPECT_LE(times.at_least(vertex), exact[static_cast<std::size_t>(vertex)] + kRounding)
           << "round " << round << ", vertex " << vertex;
