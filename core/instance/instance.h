@@ -12,7 +12,6 @@
 #include "core/map/lattice.h"
 #include "core/map/line_of_sight.h"
 #include "core/model/itinerary.h"
-#include "core/model/loads.h"
 #include "core/model/motion.h"
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"
@@ -59,19 +58,6 @@ class Instance {
   const Contacts& contacts() const { return contacts_; }
   /// Obstacles and committed motion; never null. Instances for other threads may share them.
   const std::shared_ptr<const FixedReservations>& fixed_reservations() const { return fixed_reservations_; }
-
-  // Short for what is in stages(), and functions of it.
-  const Motion& motion(std::size_t index, std::size_t stage) const { return stages_[index][stage].motion; }
-  double radius(std::size_t index, std::size_t stage) const { return stages_[index][stage].load.radius; }
-  bool changes_load(std::size_t index) const { return stages_[index].changes_load(); }
-  FreeSpace& free_space(std::size_t index) const { return *stages_[index][0].free_space; }
-  const DriveZones* drive_zones(std::size_t index) const { return stages_[index][0].zones.get(); }
-  const LargestDisk& largest_disk(std::size_t index) const { return stages_[index].largest_disk(); }
-  const Motion& slimmest_motion(std::size_t index) const { return stages_[index].slimmest_motion(); }
-  double longest_plan(std::size_t index) const { return stages_[index].longest_plan(); }
-  std::vector<SizedSegment> segments(std::size_t index, const Trajectory& trajectory) const {
-    return sized_segments(robot(index), itinerary(index), trajectory);
-  }
 
  private:
   const Problem& problem_;

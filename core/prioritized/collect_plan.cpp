@@ -62,7 +62,7 @@ RobotPlan robot_plan(const FleetReservations& reservations, std::size_t index, d
     return {index, cost, actions, std::min(bound, cost), visits_of(robot, actions)};
   }
   // Rounding may leave a bound slightly above the cost that it bounds.
-  std::vector<Action> actions = to_actions(robot, *trajectory, instance.drive_zones(index));
+  std::vector<Action> actions = to_actions(robot, *trajectory, instance.stages(index)[0].zones.get());
   std::vector<Visit> visits = visits_of(robot, actions);
   remove_wrong_goals(actions, visits, robot.committed.size());
   if (trajectory->stops_at) remove_unserved_last(visits, robot, *trajectory->stops_at);

@@ -51,7 +51,7 @@ Enclosure::Enclosure(const Instance& instance, std::size_t robot, const std::vec
     const Position& center = instance.itinerary(other).pose.position;
     // A robot that starts too near to another one may leave, but may come no nearer.
     const double reach =
-        std::min(instance.slimmest_motion(robot).pair_radius + instance.motion(other).pair_radius,
+        std::min(instance.stages(robot).slimmest_motion().pair_radius + instance.motion(other).pair_radius,
                  (start - center).norm());
     disks_.push_back({other, center, reach - kSlack, false});
     longest_reach_ = std::max(longest_reach_, reach);
@@ -64,7 +64,7 @@ Enclosure::Enclosure(const Instance& instance, std::size_t robot, const std::vec
 /// or less if the robot is nearer to an obstacle at its start or goal.
 double Enclosure::required_clearance() const {
   const Robot& robot = instance_.robot(robot_);
-  double clearance = instance_.slimmest_motion(robot_).radius;
+  double clearance = instance_.stages(robot_).slimmest_motion().radius;
   const Position& start = instance_.itinerary(robot_).pose.position;
   for (const Position& position : {start, robot.goal->position}) {
     if (instance_.sight().disk_fits(position, clearance)) continue;

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/instance/instance.h"
-#include "core/model/loads.h"
 #include "core/model/trajectory.h"
 #include "core/reservation/reservation_table.h"
 

@@ -24,8 +24,8 @@ constexpr double kShareOfSteps = 0.4;
 
 bool is_simple(const Instance& instance, std::size_t robot) {
   const Itinerary& itinerary = instance.itinerary(robot);
-  return itinerary.goals.size() == 1 && !itinerary.goals.front().anywhere && !instance.changes_load(robot) &&
-         instance.drive_zones(robot) == nullptr;
+  return itinerary.goals.size() == 1 && !itinerary.goals.front().anywhere &&
+         !instance.stages(robot).changes_load() && instance.stages(robot)[0].zones == nullptr;
 }
 
 /// Makes the graph of a fleet's steps, if it has one.
@@ -65,7 +65,7 @@ class StepGraph {
     if (2.0 * widest_ > lattice.spacing() + kSearchSlack) return std::nullopt;
     std::map<const FreeSpace*, std::size_t> known;
     for (std::size_t k = 0; k < robots_.size(); ++k) {
-      FreeSpace& space = instance_.free_space(robots_[k]);
+      FreeSpace& space = *instance_.stages(robots_[k])[0].free_space;
       const auto [entry, is_new] = known.emplace(&space, problem.graphs.size());
       problem.movers[k].graph = entry->second;
       if (!is_new) continue;
@@ -86,7 +86,7 @@ class StepGraph {
     for (std::size_t i = 0; i < instance_.size(); ++i) {
       if (moves[i] || !reservations_.stays(i)) continue;
       const Position& position = instance_.itinerary(i).pose.position;
-      widest_ = std::max(widest_, instance_.largest_disk(i).pair_radius);
+      widest_ = std::max(widest_, instance_.stages(i).largest_disk().pair_radius);
       const int vertex = lattice.vertex_at(position);
       if (vertex >= 0) {
         taken_[static_cast<std::size_t>(vertex)] = true;
@@ -284,7 +284,7 @@ std::optional<std::vector<Trajectory>> plan_in_steps(const FleetReservations& re
   }
   std::vector<Trajectory> trajectories = steps.finish();
   for (std::size_t k = 0; k < robots.size(); ++k) {
-    if (trajectories[k].cost >= reservations.instance().longest_plan(robots[k])) return std::nullopt;
+    if (trajectories[k].cost >= reservations.instance().stages(robots[k]).longest_plan()) return std::nullopt;
   }
   return trajectories;
 }

@@ -72,7 +72,7 @@ SearchResult PlanState::search_until(double horizon, std::size_t robot, const Se
     SearchSpace* space = memory_.space_of(robot, stop);
     if (space == nullptr) return no_memory();
     SearchLimits within = limits;
-    within.bound = std::min(limits.bound, instance_.longest_plan(robot));
+    within.bound = std::min(limits.bound, instance_.stages(robot).longest_plan());
     within.horizon = horizon;
     return memory_.search().run(*space, within, stop);
   };
@@ -89,7 +89,7 @@ SearchResult PlanState::search_until(double horizon, std::size_t robot, const Se
 bool PlanState::goal_stays_free(std::size_t robot) const {
   if (instance_.robot(robot).yields()) return true;
   const std::size_t at_rest = instance_.itinerary(robot).goals.size();
-  const Footprint footprint{robot, instance_.radius(robot, at_rest)};
+  const Footprint footprint{robot, instance_.stages(robot)[at_rest].load.radius};
   const auto safe = reservations_.table().safe_intervals(footprint, instance_.robot(robot).goal->position);
   return !safe.empty() && safe.back().end == kForever;
 }

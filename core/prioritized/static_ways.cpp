@@ -112,7 +112,7 @@ bool StaticWays::is_closed_off(std::size_t robot, std::int64_t expansions) {
 bool StaticWays::takes_too_long(std::size_t robot, const StopCondition& stop) {
   return memory_.within_memory(false, [&] {
     SearchSpace* space = memory_.space_of(robot, stop);
-    return space != nullptr && estimated_end(*space, stop) >= instance_.longest_plan(robot);
+    return space != nullptr && estimated_end(*space, stop) >= instance_.stages(robot).longest_plan();
   });
 }
 

@@ -61,13 +61,13 @@ class DiskIndex {
 
 DiskIndex::DiskIndex(const Instance& instance, At at) : instance_(instance), at_(at), size_(0.0) {
   for (std::size_t i = 0; i < instance.size(); ++i) {
-    size_ = std::max(size_, 2.0 * instance.largest_disk(i).pair_radius);
+    size_ = std::max(size_, 2.0 * instance.stages(i).largest_disk().pair_radius);
   }
 }
 
 double DiskIndex::radius(std::size_t robot, At at) const {
   const std::size_t stage = at == At::start ? 0 : instance_.itinerary(robot).goals.size();
-  return instance_.motion(robot, stage).pair_radius;
+  return instance_.stages(robot)[stage].motion.pair_radius;
 }
 
 std::int64_t DiskIndex::bucket(double coordinate) const {

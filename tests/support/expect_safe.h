@@ -104,7 +104,7 @@ inline std::vector<core::RobotPlan> plans_of(const core::FleetReservations& rese
     if (!trajectory) continue;
     plans.push_back({i, trajectory->cost,
                      core::to_actions(reservations.instance().robot(i), *trajectory,
-                                      reservations.instance().drive_zones(i))});
+                                      reservations.instance().stages(i)[0].zones.get())});
   }
   return plans;
 }
