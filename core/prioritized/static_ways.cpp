@@ -84,7 +84,8 @@ std::int64_t StaticWays::find_leg(std::size_t robot, SearchSpace& space, std::si
       way = space.goal_count() == 1 ? way_off_lattice(robot) : Way{Way::Kind::not_on_lattice, {}, {}};
     }
     if (reaches || stop.met()) break;
-    is_closed_off(robot, last);
+    // With a horizon, a robot that others close off may come nearer to its goal all the same.
+    test_enclosure(robot, instance_.options().horizon ? Robots() : others_that_stay(robot), last);
   }
   return costs.expansions() - before;
 }
@@ -100,8 +101,17 @@ Way StaticWays::way_off_lattice(std::size_t robot) const {
 }
 
 bool StaticWays::is_closed_off(std::size_t robot, std::int64_t expansions) {
-  std::vector<std::size_t> staying = reservations_.staying_robots();
+  return test_enclosure(robot, others_that_stay(robot), expansions);
+}
+
+StaticWays::Robots StaticWays::others_that_stay(std::size_t robot) const {
+  Robots staying = reservations_.staying_robots();
   std::erase(staying, robot);
+  return staying;
+}
+
+/// Whether obstacles and these robots are found to close off the robot; see is_closed_off().
+bool StaticWays::test_enclosure(std::size_t robot, const Robots& staying, std::int64_t expansions) {
   Enclosure::Result result = Enclosure(instance_, robot, staying).find(kEnclosureSteps * expansions);
   if (result.answer != Enclosure::Answer::closed) return false;
   if (!result.robots.empty()) closed_by_robots_.push_back(robot);

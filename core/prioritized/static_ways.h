@@ -34,13 +34,15 @@ struct Way {
 /// found out when it is first asked for, and kept.
 class StaticWays {
  public:
-  /// The arguments outlive this object. The reservations tell it when a robot that stayed leaves: forget().
+  /// The arguments outlive this object. The reservations tell it when a robot that stayed leaves:
+  /// forget_closed_by_robots().
   StaticWays(const FleetReservations& reservations, SearchMemory& memory);
 
   /// Whether obstacles allow the robot a move from its place; true if `stop` is met first.
   bool can_leave_place(std::size_t robot, const StopCondition& stop);
-  /// Whether the robot has a way to its goal past obstacles and the robots that stay; unknown if `stop` is
-  /// met first, or if that takes more than `max_expansions` expansions of a search on the map.
+  /// Whether the robot has a way to its goal past obstacles and, without a horizon, the robots that stay;
+  /// unknown if `stop` is met first, or if that takes more than `max_expansions` expansions of a search on
+  /// the map.
   const Way& way_to_goal(std::size_t robot, std::int64_t max_expansions, const StopCondition& stop);
   /// What is known of that way.
   const Way& way_to_goal(std::size_t robot) const { return ways_[robot]; }
@@ -62,6 +64,10 @@ class StaticWays {
   void forget_if_closed_by_robots(std::size_t robot);
 
  private:
+  using Robots = std::vector<std::size_t>;
+
+  Robots others_that_stay(std::size_t robot) const;
+  bool test_enclosure(std::size_t robot, const Robots& staying, std::int64_t expansions);
   void find_way(std::size_t robot, std::int64_t max_expansions, const StopCondition& stop);
   std::int64_t find_leg(std::size_t robot, SearchSpace& space, std::size_t goal, std::int64_t max_expansions,
                         const StopCondition& stop);

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <numbers>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -48,6 +50,25 @@ Robot visitor(Robot robot, std::vector<Goal> via) {
 
 Goal goal_at(double x, double y, double service = 0.0, double not_before = 0.0) {
   return {Position(x, y), std::nullopt, service, not_before};
+}
+
+/// A hall in which the way to the right leads around a long wall, so that it takes many expansions to find,
+/// and a dead end of one cell at the lower right.
+OccupancyGrid hall_with_dead_end() {
+  constexpr int kSide = 220;
+  constexpr int kWall = 110;
+  std::vector<std::string> rows(kSide, std::string(kSide, '.'));
+  for (std::size_t row = 5; row < rows.size(); ++row) rows[row][kWall] = '#';
+  for (const std::size_t row : {kSide - 7, kSide - 5}) {
+    std::fill(rows[row].begin() + 200, rows[row].end(), '#');
+  }
+  return support::ascii_map(rows);
+}
+
+TEST(PlannerHorizon, LetsARobotComeNearerToAGoalThatOthersCloseOff) {
+  const Plan plan =
+      plan_of(hall_with_dead_end(), {robot_at(5.5, 5.5).to(215.5, 5.5), robot_at(203.5, 5.5)}, up_to(20.0));
+  EXPECT_GT(plan.plans.at(0).actions.size(), 0U);
 }
 
 TEST(PlannerHorizon, EstimatesWhenRobotsComeToTheGoalsBeyondIt) {
