@@ -11,7 +11,7 @@ namespace fleetplan::core {
 
 /// The largest disk of the robot that fits where its plan begins: its radius, or less where a wall is nearer.
 double radius_at_start(const Instance& instance, std::size_t robot);
-/// Likewise at the goal of a stage, where only contact is allowed for.
+/// The largest one that fits at the goal of a stage, where a wall may be nearer by a contact only.
 double radius_at_goal(const Instance& instance, std::size_t robot, const Position& goal, std::size_t stage);
 
 /// Whether the robot's disk fits where its plan begins.

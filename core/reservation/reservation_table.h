@@ -40,15 +40,17 @@ class ReservationTable {
   /// Whether a query may take a millisecond: then a search asks its stop condition more often.
   bool is_costly() const;
 
-  /// When the robot may stand at `position` (paper, "Computing intervals"); ascending, without intervals
-  /// shorter than 1e-9 s. What passes there before `t_from`, the earliest time at which the robot can be
-  /// there, may be left out, which saves time.
+  /// When the robot may stand at `position` (paper, "Computing intervals"): all times but the open intervals
+  /// in which others are too near; ascending, without intervals shorter than 1e-9 s. What passes there before
+  /// `t_from`, the earliest time at which the robot can be there, may be left out, which saves time.
   std::vector<SafeInterval> safe_intervals(const Footprint& footprint, const Position& position,
                                            double t_from = 0.0) const;
 
   /// The earliest departure in [t_min, t_max] at which the robot can make the straight move of `duration`
   /// seconds (> 0) without a collision on the way; none if there is none. The caller ensures that the robot
-  /// is in safe intervals before and after the move. For `ramp` see TimedSegment.
+  /// is in safe intervals before and after the move. A departure at which the robot would meet another one is
+  /// delayed to the end of the departures that this one forbids, until it meets nobody. For `ramp` see
+  /// TimedSegment.
   std::optional<double> earliest_departure(const Footprint& footprint, const Segment& path, double duration,
                                            double t_min, double t_max, double ramp = 0.0) const;
 

@@ -88,7 +88,7 @@ class PathEnd {
   double rest_f_ = kForever;
 };
 
-/// The arrivals that a pass discards, because others dominate them or are hardly worse.
+/// Discards arrivals: those that others dominate and, in the quick pass, those that are hardly better.
 class DominatedArrivals {
  public:
   DominatedArrivals(const DominanceTable& table, const Goals& goals, const Motion& motion)
@@ -100,7 +100,7 @@ class DominatedArrivals {
     may_be_kept_ = false;
   }
 
-  bool contain(int interval, double arrival, double heading, double f) {
+  bool discard(int interval, double arrival, double heading, double f) {
     if (table_.empty(interval)) return false;
     // The quick pass keeps one label per interval while no path ends before time f, because a goal is not
     // free yet or has to wait. An earlier arrival would gain nothing.
@@ -111,8 +111,8 @@ class DominatedArrivals {
     return dominated;
   }
 
-  /// The part of a safe interval before which an arrival with this heading is not dominated.
-  SafeInterval part_before(int interval, double heading, SafeInterval safe) {
+  /// The part of a safe interval in which an arrival with this heading is not dominated.
+  SafeInterval undominated_part(int interval, double heading, SafeInterval safe) {
     const double dominated_from = table_.dominated_from(interval, heading);
     if (dominated_from < safe.end) {
       safe.end = dominated_from;
@@ -168,7 +168,7 @@ class Search {
   double heading_at_start(PlaceId start) const;
   void expand(LabelId id);
   void offer_from(EdgeId id, int interval);
-  bool offer(EdgeId id, EdgeKind kind, int interval, bool next_interval_follows);
+  bool offer(EdgeId id, MoveKind kind, int interval, bool next_interval_follows);
   bool time_entry(OpenEntry& entry, double f);
   void push_timed(OpenEntry entry, double f_lower_bound);
   LabelId settle(const OpenEntry& entry);
@@ -293,7 +293,7 @@ void Search::expand(LabelId id) {
 }
 
 /// Offers the move into the first safe interval of the edge's target, from `interval` on, that the shortcut
-/// or the local edge can reach. The next one is offered when this move is popped.
+/// or the local move can reach. The next one is offered when this move is popped.
 void Search::offer_from(EdgeId id, int interval) {
   const Edge& edge = state_.edges[id];
   const bool shortcut = edge.shortcut_sight != Edge::Sight::blocked;
@@ -301,14 +301,14 @@ void Search::offer_from(EdgeId id, int interval) {
   if (shortcut) latest = std::max(latest, edge.shortcut.latest + edge.shortcut.duration);
   const int end = state_.places[edge.target].end_interval;
   for (; interval < end && state_.intervals[interval].begin <= latest; ++interval) {
-    if (shortcut && offer(id, EdgeKind::shortcut, interval, true)) return;
-    if (offer(id, EdgeKind::local, interval, true)) return;
+    if (shortcut && offer(id, MoveKind::shortcut, interval, true)) return;
+    if (offer(id, MoveKind::local, interval, true)) return;
   }
 }
 
 /// Pushes a move with the lower bound of its arrival. Returns false if it is impossible, too expensive or
 /// dominated.
-inline bool Search::offer(EdgeId id, EdgeKind kind, int interval, bool next_interval_follows) {
+inline bool Search::offer(EdgeId id, MoveKind kind, int interval, bool next_interval_follows) {
   const Edge& edge = state_.edges[id];
   const Move& move = edge.move(kind);
   const double departure = move.earliest_into(state_.intervals[interval]);
@@ -316,34 +316,34 @@ inline bool Search::offer(EdgeId id, EdgeKind kind, int interval, bool next_inte
   const double arrival = departure + move.duration;
   const Evaluation evaluation = evaluate(edge.target, interval, arrival, move.heading);
   if (!(evaluation.cost < limits_.bound)) return false;
-  if (dominated_.contain(interval, arrival, move.heading, evaluation.f)) return false;
+  if (dominated_.discard(interval, arrival, move.heading, evaluation.f)) return false;
   state_.open.push({arrival, departure, id, interval, ArrivalId::none, kind, next_interval_follows},
                    evaluation.f, evaluation.h);
   return true;
 }
 
 /// Tests an entry with this f against obstacles and reservations. Returns whether its lower bound is exact.
-/// If not, pushes what takes its place: the same move with its later arrival, and the local edge for a
+/// If not, pushes what takes its place: the same move with its later arrival, and the local move for a
 /// shortcut.
 bool Search::time_entry(OpenEntry& entry, double f) {
   Edge& edge = state_.edges[entry.edge];
   const Move& move = edge.move(entry.kind);
-  const bool is_shortcut = entry.kind == EdgeKind::shortcut;
+  const bool is_shortcut = entry.kind == MoveKind::shortcut;
   if (is_shortcut) successors_.test_sight(edge);
   if (entry.next_interval_follows) offer_from(entry.edge, entry.interval + 1);
-  // An arrival that dominates a shortcut also dominates the local edge.
-  if (dominated_.contain(entry.interval, entry.arrival, move.heading, f)) return false;
+  // An arrival that dominates a shortcut also dominates the local move.
+  if (dominated_.discard(entry.interval, entry.arrival, move.heading, f)) return false;
 
   const double lower_bound = entry.arrival;
   const SafeInterval& safe = state_.intervals[entry.interval];
   const auto departure =
-      successors_.earliest_departure(entry, dominated_.part_before(entry.interval, move.heading, safe));
+      successors_.earliest_departure(entry, dominated_.undominated_part(entry.interval, move.heading, safe));
   if (departure) {
     entry.departure = *departure;
     entry.arrival = *departure + move.duration;
     if (entry.arrival <= lower_bound + kSameTime) return true;
   }
-  if (is_shortcut) offer(entry.edge, EdgeKind::local, entry.interval, false);
+  if (is_shortcut) offer(entry.edge, MoveKind::local, entry.interval, false);
   if (departure) push_timed(entry, f);
   return false;
 }
@@ -353,7 +353,7 @@ bool Search::time_entry(OpenEntry& entry, double f) {
 void Search::push_timed(OpenEntry entry, double f_lower_bound) {
   const Edge& edge = state_.edges[entry.edge];
   const double heading = edge.move(entry.kind).heading;
-  if (dominated_.contain(entry.interval, entry.arrival, heading, f_lower_bound)) return;
+  if (dominated_.discard(entry.interval, entry.arrival, heading, f_lower_bound)) return;
   const Evaluation evaluation = evaluate(edge.target, entry.interval, entry.arrival, heading);
   if (!(evaluation.cost < limits_.bound)) return;
   entry.timed_arrival = state_.dominance.add(entry.interval, entry.arrival, heading);
@@ -366,7 +366,7 @@ LabelId Search::settle(const OpenEntry& entry) {
   const Edge& edge = state_.edges[entry.edge];
   return add_label({entry.arrival, edge.move(entry.kind).heading, entry.departure,
                     state_.source_of(edge, entry.kind), edge.target, entry.interval,
-                    entry.kind != EdgeKind::service, edge.move(entry.kind).reverse});
+                    entry.kind != MoveKind::service, edge.move(entry.kind).reverse});
 }
 
 /// Adds a label. If the path may end there, it is the result.

@@ -88,7 +88,7 @@ struct SearchResult {
 ///         g <- earliest arrival: rotate, wait, translate     Successors::earliest_departure
 ///                                     ["... w.r.t. dynamic obstacles and computing earliest arrival time"]
 ///         if g rose above its lower bound, or there is no departure:
-///           if it is a shortcut, offer the local edge
+///           if it is a shortcut, offer the local move
 ///           if there is a departure and the arrival is not dominated: push the timed entry
 ///           continue
 ///       else if the entry is dominated by now: continue

@@ -54,7 +54,7 @@ IndexedVector<Stage> stages_of(SearchSpace& space, const StopCondition& stop) {
     stage.not_before = goal.not_before;
     stage.after = goal.service;
     stage.is_anywhere = goal.anywhere;
-    stage.radius_changes = space.changes_load() && space.radius(index) != space.radius(index + 1);
+    stage.radius_changes = space.changes_load() && space.wall_radius(index) != space.wall_radius(index + 1);
     if (k < last) stage.after += estimated_leg(space, index, stop) + stages[k + 1].after;
   }
   if (!space.rests_with_other_radius()) return stages;

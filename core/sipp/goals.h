@@ -23,7 +23,8 @@ struct Stage {
   /// Estimate: seconds from rest in the goal's pose to the end of the last service, without waiting for any
   /// `not_before`. The service at this goal is included.
   double after = 0.0;
-  /// Estimate: no path ends earlier, because of this `not_before` and the later ones.
+  /// Estimate: no path ends earlier, because of this `not_before` and the later ones, and of when the last
+  /// goal becomes free or, with a horizon, of that if it is sooner.
   double release = 0.0;
 
   const Vertices* vertices = nullptr;

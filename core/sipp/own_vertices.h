@@ -14,8 +14,8 @@ namespace fleetplan::core {
 class Instance;
 
 /// One robot's start and goals where they lie off its lattice (refined for its radius), numbered after the
-/// vertices of that, which they are linked to: to all in sight within two cells. A start or goal that is too
-/// near to a wall or to another robot's start is an own vertex, too. At such a vertex the robot keeps the
+/// vertices of that, which they are linked to: to all in sight within two spacings. A start or goal that is
+/// too near to a wall or to another robot's start is an own vertex, too. At such a vertex the robot keeps the
 /// distance from walls that it has there, and from a start it is linked to vertices that are far enough away
 /// to be clear. A start that is too near to a wall is left once, and never entered again. So are the start
 /// inside of a zone that the robot may leave, and the places on its way out (see Leaving), which are own
@@ -90,7 +90,7 @@ class OwnVertices {
   const int first_;
   std::vector<OwnVertex> own_;
   std::size_t start_count_ = 0;  // own vertices that add_start() has added
-  // Those on the way out of zones, the start included, and the vertex at which that ends.
+  // The own vertices on the way out of zones, the start included, and the vertex at which that ends.
   int first_inside_ = std::numeric_limits<int>::max();
   int end_inside_ = 0;
   int outside_ = -1;

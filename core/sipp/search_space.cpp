@@ -77,12 +77,6 @@ CostToGo& SearchSpace::cost_to_go(std::size_t goal) {
   return *known;
 }
 
-std::int64_t SearchSpace::expansions() const {
-  std::int64_t expansions = 0;
-  for (const auto& cost : costs_to_go_) expansions += cost ? cost->expansions() : 0;
-  return expansions;
-}
-
 std::size_t SearchSpace::bytes() const {
   std::size_t bytes = 0;
   for (const auto& cost : costs_to_go_) bytes += cost ? cost->bytes() : 0;

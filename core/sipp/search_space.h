@@ -1,7 +1,6 @@
 #pragma once
 
-// What a search for one robot needs besides the reservations of others: its view of the static map, its
-// goals, and what it costs to get to them. All of it is kept from search to search.
+// The static side of a search for one robot, and how it is kept from search to search.
 
 #include <cstddef>
 #include <cstdint>
@@ -56,10 +55,11 @@ class SearchSpace {
   bool changes_load() const { return stages_->changes_load(); }
   /// Whether it has another radius at rest at the last goal, after the service there.
   bool rests_with_other_radius() const {
-    return changes_load() && radius(goal_count()) != radius(goal_count() - 1);
+    return changes_load() && wall_radius(goal_count()) != wall_radius(goal_count() - 1);
   }
-  /// The radius in a stage or, with goal_count(), at rest at the last goal; metres, inflation included.
-  double radius(std::size_t stage) const { return (*stages_)[stage].motion.radius; }
+  /// The radius to walls in a stage or, with goal_count(), at rest at the last goal; metres, inflation
+  /// included.
+  double wall_radius(std::size_t stage) const { return (*stages_)[stage].motion.radius; }
   Footprint footprint(std::size_t stage) const {
     return {robot_, (*stages_)[stage].load.radius, stage > goals_at_start_};
   }
@@ -73,13 +73,11 @@ class SearchSpace {
   /// To the goal with this index in Vertices::goals(), created on first use. Equal goals share theirs.
   CostToGo& cost_to_go(std::size_t goal);
 
-  /// Expansions of all backward searches so far.
-  std::int64_t expansions() const;
   /// Approximate memory in use, bytes.
   std::size_t bytes() const;
 
  private:
-  /// Of the static map, with one load.
+  /// The view of the static map with one load.
   struct View {
     std::unique_ptr<Vertices> vertices;
     int first_vertex = 0;

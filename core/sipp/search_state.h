@@ -30,12 +30,13 @@ struct Place {
   int stage;
   int number;  // of the vertex among those of all loads
   Position position;
-  CostToGo::Estimate estimate;  // to the end of the last service
-  bool any_heading;             // the goal of the stage, in which the robot may rest with any heading
-  int first_interval;           // of SearchState::intervals
-  int end_interval;             // one past the last one
-  PlaceId other_stage;          // of the same vertex; none for the one that was reached first
-  bool is_window = false;       // the intervals are the arrivals for a service after which the radius changes
+  CostToGo::Estimate
+      estimate;            // h, to the end of the last service; of an existing way, so it may be too high
+  bool any_heading;        // the goal of the stage, in which the robot may rest with any heading
+  int first_interval;      // of SearchState::intervals
+  int end_interval;        // one past the last one
+  PlaceId other_stage;     // of the same vertex; none for the one that was reached first
+  bool is_window = false;  // the intervals are the arrivals for a service after which the radius changes
 
   bool never_safe() const { return first_interval == end_interval; }
 };
@@ -57,9 +58,9 @@ struct Label {
 /// the translation before it may depart at once: then both form one translation, which has one added wait.
 struct Move {
   double heading = 0.0;              // of the robot
-  double duration = 0.0;             // seconds, > 0
+  double duration = 0.0;             // seconds; 0 for a service
   double ready = 0.0;                // earliest departure after the rotation and the added wait
-  double latest = 0.0;               // latest departure: the end of the label's safe interval
+  double latest = 0.0;               // latest departure: see Goals::latest_departure
   bool reverse = false;              // backwards
   bool continues_straight = false;   // without added wait, from `at_source_from` on
   double at_source_from = kForever;  // arrival of the robot at the label
@@ -77,9 +78,9 @@ struct Move {
   }
 };
 
-/// Where an edge starts: at the label that is expanded, or at its parent (any-angle). A service leads from a
-/// stage to the next one, at the same vertex.
-enum class EdgeKind : std::uint8_t { local, shortcut, service };
+/// Where a move along an edge starts: at the label that is expanded, or at its parent (any-angle). A service
+/// leads from a stage to the next one, at the same vertex.
+enum class MoveKind : std::uint8_t { local, shortcut, service };
 
 /// The two ways to reach a place when a label is expanded: a local move from the label or, any-angle, a
 /// shortcut from its parent.
@@ -92,17 +93,17 @@ struct Edge {
   PlaceId target = PlaceId::none;
   Sight shortcut_sight = Sight::blocked;  // blocked if there is no shortcut
 
-  const Move& move(EdgeKind kind) const { return kind == EdgeKind::shortcut ? shortcut : local; }
+  const Move& move(MoveKind kind) const { return kind == MoveKind::shortcut ? shortcut : local; }
 };
 
 /// A move along an edge into one safe interval of its target.
 struct OpenEntry {
-  double arrival;    // g; a lower bound until the edge is timed
+  double arrival;    // g; a lower bound until the entry is timed
   double departure;  // from the source
   EdgeId edge;
   int interval;
-  ArrivalId timed_arrival;  // in the dominance table; none until the edge is timed
-  EdgeKind kind;
+  ArrivalId timed_arrival;  // in the dominance table; none until the entry is timed
+  MoveKind kind;
   bool next_interval_follows;  // the move into the target's next interval is offered when this one is popped
 
   bool timed() const { return timed_arrival != ArrivalId::none; }
@@ -246,8 +247,8 @@ struct SearchState {
   DominanceTable dominance;
 
   const Place& place_at(LabelId label) const { return places[labels[label].place]; }
-  LabelId source_of(const Edge& edge, EdgeKind kind) const {
-    return kind == EdgeKind::shortcut ? labels[edge.via].parent : edge.via;
+  LabelId source_of(const Edge& edge, MoveKind kind) const {
+    return kind == MoveKind::shortcut ? labels[edge.via].parent : edge.via;
   }
 
   /// Prepares for a search among so many vertices.

@@ -162,7 +162,7 @@ inline Move Successors::move_between(LabelId from, PlaceId target, bool reverse)
 
 void Successors::test_sight(Edge& edge) const {
   if (edge.shortcut_sight != Edge::Sight::unknown) return;
-  const int from = state_.place_at(state_.source_of(edge, EdgeKind::shortcut)).vertex;
+  const int from = state_.place_at(state_.source_of(edge, MoveKind::shortcut)).vertex;
   const Place& target = state_.places[edge.target];
   const bool free = vertices(target.stage).in_sight(from, target.vertex);
   edge.shortcut_sight = free ? Edge::Sight::free : Edge::Sight::blocked;
@@ -171,7 +171,7 @@ void Successors::test_sight(Edge& edge) const {
 std::optional<double> Successors::earliest_departure(const OpenEntry& entry,
                                                      const SafeInterval& target) const {
   const Edge& edge = state_.edges[entry.edge];
-  if (entry.kind == EdgeKind::shortcut && edge.shortcut_sight == Edge::Sight::blocked) return std::nullopt;
+  if (entry.kind == MoveKind::shortcut && edge.shortcut_sight == Edge::Sight::blocked) return std::nullopt;
   const Move& move = edge.move(entry.kind);
   const Segment path{state_.place_at(state_.source_of(edge, entry.kind)).position,
                      state_.places[edge.target].position};

@@ -20,8 +20,8 @@
 namespace fleetplan::core {
 
 /// The successors of labels for one robot: moves to neighbours, shortcuts from the parent (any-angle), moves
-/// straight to the goal, and services. What limits its moves is here and nowhere else in the search: driving
-/// backwards, zones, and loads that change from stage to stage.
+/// straight to the goal, and services. All that limits a move from a label is here: driving backwards, zones,
+/// and loads that change from stage to stage. The loop of the search knows none of them.
 class Successors {
  public:
   /// All arguments outlive this object.
@@ -109,7 +109,7 @@ bool Successors::visit_services(LabelId from, Visit&& visit) {
   const PlaceId next = place_of(place.vertex, place.stage + 1);
   const int interval = state_.places[next].first_interval + label.interval - place.first_interval;
   const EdgeId edge = add_service(from, next, stop.heading);
-  visit(OpenEntry{t_end, stop.t_rest, edge, interval, ArrivalId::none, EdgeKind::service, false});
+  visit(OpenEntry{t_end, stop.t_rest, edge, interval, ArrivalId::none, MoveKind::service, false});
   return safe_until == kForever || (t_end == label.arrival && stop.heading == label.heading);
 }
 
@@ -132,7 +132,7 @@ bool Successors::visit_services_with_other_load(LabelId from, const ServiceStop&
     const SafeInterval safe = state_.intervals[k];
     const bool contains = safe.begin <= stop.t_end + kRoundingOfTimes && t_end <= safe.end;
     if (!contains || (next_stage.is_rest && safe.end != kForever)) continue;
-    visit(OpenEntry{std::max(t_end, safe.begin), stop.t_rest, edge, k, ArrivalId::none, EdgeKind::service,
+    visit(OpenEntry{std::max(t_end, safe.begin), stop.t_rest, edge, k, ArrivalId::none, MoveKind::service,
                     false});
     is_offered = true;
   }

@@ -26,7 +26,7 @@ Planning three_robots() {
 void search_back(SearchSpaces& spaces, std::size_t robot) {
   SearchSpace& space = *spaces.of(robot, StopCondition::never());
   space.cost_to_go(0).from(space.vertices().start(), StopCondition::never());
-  ASSERT_GT(space.expansions(), 0);
+  ASSERT_GT(space.bytes(), 0);
 }
 
 TEST(SearchSpaces, AreKeptFromSearchToSearch) {
@@ -34,7 +34,7 @@ TEST(SearchSpaces, AreKeptFromSearchToSearch) {
   SearchSpaces spaces(p.instance);
   for (std::size_t robot = 0; robot < 3; ++robot) search_back(spaces, robot);
   for (std::size_t robot = 0; robot < 3; ++robot)
-    EXPECT_GT(spaces.of(robot, StopCondition::never())->expansions(), 0);
+    EXPECT_GT(spaces.of(robot, StopCondition::never())->bytes(), 0);
 }
 
 TEST(SearchSpaces, DiscardTheLeastRecentlyUsedWithoutMemory) {
@@ -47,8 +47,8 @@ TEST(SearchSpaces, DiscardTheLeastRecentlyUsedWithoutMemory) {
   spaces.of(0, StopCondition::never());
   account.count(account.limit() * 5 / 8);
   spaces.of(2, StopCondition::never());
-  EXPECT_GT(spaces.of(0, StopCondition::never())->expansions(), 0);
-  EXPECT_EQ(spaces.of(1, StopCondition::never())->expansions(), 0);
+  EXPECT_GT(spaces.of(0, StopCondition::never())->bytes(), 0);
+  EXPECT_EQ(spaces.of(1, StopCondition::never())->bytes(), 0);
 }
 
 TEST(SearchSpaces, AreAllDiscarded) {
@@ -56,7 +56,7 @@ TEST(SearchSpaces, AreAllDiscarded) {
   SearchSpaces spaces(p.instance);
   search_back(spaces, 0);
   spaces.discard_all();
-  EXPECT_EQ(spaces.of(0, StopCondition::never())->expansions(), 0);
+  EXPECT_EQ(spaces.of(0, StopCondition::never())->bytes(), 0);
 }
 
 /// A robot with so many goals off the lattice that comparing them with each other takes long.
