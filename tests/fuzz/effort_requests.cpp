@@ -461,6 +461,9 @@ Effort planning_effort(Choices choices) {
   if (kind == 2) return {api::matrix_endpoint, false, matrix_of(request).dump(), count, steps, memory};
   if (kind == 3)
     return {api::assign_endpoint, false, tasks_of(request, choices).dump(), count, steps, memory};
+  if (choices.yes()) {  // two sizes
+    for (std::size_t k = 1; k < count; k += 2) request["robots"][k]["radius"] = 0.5 * radius;
+  }
   return {api::plan_endpoint, true, request.dump(), count, steps, memory};
 }
 
