@@ -28,6 +28,9 @@ constexpr std::size_t kMaxThreads = 4;
 /// Steps of a round with a report before it, and without: at its end, threads wait for each other.
 constexpr std::size_t kReportedRound = 32;
 constexpr std::size_t kRound = 1024;
+/// Steps for each robot before vertices get more neighbours (WorkspacePool::add_moves): first, as many
+/// improvements as possible count, later, good ones.
+constexpr std::size_t kStepsPerRobot = 8;
 /// Iterations without an improvement after which it is tested whether one is possible.
 constexpr int kVainIterations = 32;
 
@@ -53,6 +56,7 @@ class LargeNeighbourhoodSearch {
         exhaustion_(incumbent_, bounds, is_for_makespan(state)),
         iterations_(incumbent_, exhaustion_, bounds, random, stop, is_for_makespan(state)),
         steps_(lag(state, incumbent_.planned().size())),
+        steps_before_more_moves_(kStepsPerRobot * incumbent_.planned().size()),
         workspaces_(state, incumbent_, stop),
         executor_(executor),
         stop_(stop) {}
@@ -78,11 +82,21 @@ class LargeNeighbourhoodSearch {
         workspaces_.update_callers_state(iterations_.best().differences());
         before_round(result_);
       }
-      run_round(before_round ? kReportedRound : kRound);
+      run_round(steps_of_round(before_round ? kReportedRound : kRound));
       result_.exhausted = exhaustion_.nothing_left();
       result_.cut_off = !result_.exhausted && (!may_improve_ || stop_.met() || !has_memory());
     }
     complete_all();
+  }
+
+  /// The steps of the next round, at most so many. A round ends where vertices get more neighbours, so that
+  /// this depends on the steps before alone.
+  std::size_t steps_of_round(std::size_t most) {
+    if (has_more_moves_) return most;
+    if (steps_before_more_moves_ > 0) return std::min(most, steps_before_more_moves_);
+    if (may_help_) workspaces_.add_moves();
+    has_more_moves_ = true;
+    return most;
   }
 
   void run_round(std::size_t steps) {
@@ -126,6 +140,7 @@ class LargeNeighbourhoodSearch {
     workspace.update();
     Step step;
     if (vain_iterations_ >= kVainIterations) step.test = exhaustion_.next_test(result_.expansions);
+    if (steps_before_more_moves_ > 0) --steps_before_more_moves_;
     if (step.test) return step;
     --iterations_left_;
     step.iteration = iterations_.choose();
@@ -152,6 +167,10 @@ class LargeNeighbourhoodSearch {
 
   void complete_all() {
     std::unique_ptr<Workspace> workspace = workspaces_.take();
+    if (!workspace) {
+      workspaces_.release_others();
+      workspace = workspaces_.take();
+    }
     try {
       steps_.complete_all([&](Step& step) { complete(step, *workspace); });
     } catch (const std::bad_alloc&) {  // not granted to the job
@@ -175,6 +194,8 @@ class LargeNeighbourhoodSearch {
   Exhaustion exhaustion_;
   Iterations iterations_;
   Pipeline<Step> steps_;
+  std::size_t steps_before_more_moves_;
+  bool has_more_moves_ = false;
   WorkspacePool workspaces_;
   Executor& executor_;
   const StopCondition& stop_;

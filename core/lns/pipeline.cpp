@@ -12,9 +12,10 @@ Workspace::Workspace(PlanState& state, const Incumbent& incumbent, const StopCon
       versions_(state.instance().size(), 0),
       neighbourhoods_(state, incumbent.planned(), stop) {}
 
-Workspace::Workspace(const Instance& instance, const Incumbent& incumbent, const StopCondition& stop)
-    : own_instance_(std::make_unique<Instance>(instance.problem(), instance.options(),
-                                               instance.fixed_reservations(), stop.despite_memory())),
+Workspace::Workspace(const Instance& instance, const PlanOptions& options, const Incumbent& incumbent,
+                     const StopCondition& stop)
+    : own_instance_(std::make_unique<Instance>(instance.problem(), options, instance.fixed_reservations(),
+                                               stop.despite_memory())),
       own_state_(std::make_unique<PlanState>(*own_instance_)),
       state_(own_state_.get()),
       incumbent_(incumbent),
@@ -25,6 +26,17 @@ Workspace::Workspace(const Instance& instance, const Incumbent& incumbent, const
   for (std::size_t robot = 0; robot < stays.size(); ++robot) {
     if (stays[robot]) state_->reservations().stay_in_place(robot);
   }
+}
+
+bool Workspace::follow_incumbent(const StopCondition& stop) {
+  constexpr std::size_t kRobotsBetweenStops = 8;
+  std::size_t count = 0;
+  for (const std::size_t robot : incumbent_.followers()) {
+    if (++count % kRobotsBetweenStops == 0 && stop.met()) return false;
+    state_->reservations().follow(robot, incumbent_.trajectory(robot));
+    versions_[robot] = incumbent_.version(robot);
+  }
+  return true;
 }
 
 void Workspace::update() {
@@ -51,14 +63,39 @@ void Workspace::update(const std::map<std::size_t, Trajectory>& others) {
 void Workspace::invalidate() { std::fill(versions_.begin(), versions_.end(), -1); }
 
 WorkspacePool::WorkspacePool(PlanState& state, const Incumbent& incumbent, const StopCondition& stop)
-    : instance_(state.instance()), incumbent_(incumbent), stop_(stop) {
+    : instance_(state.instance()), options_(instance_.options()), incumbent_(incumbent), stop_(stop) {
   idle_.push_back(std::make_unique<Workspace>(state, incumbent, stop));
+}
+
+void WorkspacePool::add_moves() {
+  constexpr int kMostNeighbours = 32;
+  bool may_add = options_.any_angle && options_.connectivity < kMostNeighbours;
+  for (std::size_t robot = 0; robot < instance_.size(); ++robot) {
+    may_add = may_add && instance_.stages(robot)[0].free_space->finer().count() == 0;
+  }
+  if (!may_add) return;
+  PlanOptions options = options_;
+  options.connectivity *= 2;
+  std::unique_ptr<Workspace> first;
+  try {
+    first = std::make_unique<Workspace>(instance_, options, incumbent_, stop_);
+    if (!first->follow_incumbent(stop_)) return;
+  } catch (const std::bad_alloc&) {  // not granted to the job
+    return;
+  }
+  options_ = options;
+  for (auto& workspace : idle_) {
+    if (!workspace->has_own_state()) callers_ = std::move(workspace);
+  }
+  idle_.clear();
+  idle_.push_back(std::move(first));
+  callers_->state().release_memory();
 }
 
 std::unique_ptr<Workspace> WorkspacePool::take() {
   std::unique_ptr<Workspace> workspace = take_idle();
   try {
-    if (!workspace) workspace = std::make_unique<Workspace>(instance_, incumbent_, stop_);
+    if (!workspace) workspace = std::make_unique<Workspace>(instance_, options_, incumbent_, stop_);
   } catch (const std::bad_alloc&) {  // not granted to the job
     return nullptr;
   }
@@ -79,13 +116,18 @@ void WorkspacePool::give_back(std::unique_ptr<Workspace> workspace) {
 }
 
 void WorkspacePool::update_callers_state(const std::map<std::size_t, Trajectory>& others) {
+  if (callers_) callers_->update(others);
   for (const auto& workspace : idle_) {
     if (!workspace->has_own_state()) workspace->update(others);
   }
 }
 
 bool WorkspacePool::release_others() {
-  return std::erase_if(idle_, [](const auto& workspace) { return workspace->has_own_state(); }) > 0;
+  const auto released =
+      std::erase_if(idle_, [](const auto& workspace) { return workspace->has_own_state(); });
+  if (!callers_) return released > 0;
+  idle_.push_back(std::move(callers_));
+  return true;
 }
 
 }  // namespace fleetplan::core

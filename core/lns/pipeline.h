@@ -17,6 +17,7 @@
 #include "core/instance/instance.h"
 #include "core/lns/incumbent.h"
 #include "core/lns/neighbourhood.h"
+#include "core/model/plan_options.h"
 #include "core/model/trajectory.h"
 #include "core/prioritized/plan_state.h"
 #include "core/runtime/stop_condition.h"
@@ -105,13 +106,16 @@ class Workspace {
  public:
   /// A workspace with the caller's state, which follows the incumbent already.
   Workspace(PlanState& state, const Incumbent& incumbent, const StopCondition& stop);
-  /// A workspace with an instance like this one and a state of its own. Robots that are not in the incumbent
-  /// stay at their starts.
-  Workspace(const Instance& instance, const Incumbent& incumbent, const StopCondition& stop);
+  /// A workspace with an instance like this one, but for these options, and a state of its own. Robots that
+  /// are not in the incumbent stay at their starts.
+  Workspace(const Instance& instance, const PlanOptions& options, const Incumbent& incumbent,
+            const StopCondition& stop);
 
   PlanState& state() { return *state_; }
   bool has_own_state() const { return own_state_ != nullptr; }
   NeighbourhoodSelection& neighbourhoods() { return neighbourhoods_; }
+  /// Adopts all trajectories for the first time; false if `stop` is met first, and then it must not be used.
+  bool follow_incumbent(const StopCondition& stop);
   /// Adopts the trajectories that have been replaced in the incumbent since the last call.
   void update();
   /// Updates with other trajectories for some robots, until the next update.
@@ -140,20 +144,28 @@ class WorkspacePool {
   /// for it.
   std::unique_ptr<Workspace> take();
   void give_back(std::unique_ptr<Workspace> workspace);
+  /// From now on, vertices have twice as many neighbours: searches take longer, and find better ways around
+  /// others. Nothing changes without any-angle moves, where the lattice is refined, which would take time
+  /// again, and if time or memory do not suffice. All workspaces have been given back; that with the caller's
+  /// state leaves the pool.
+  void add_moves();
   /// Updates the workspace with the caller's state, with other trajectories for some robots. All workspaces
   /// have been given back, and the incumbent does not change.
   void update_callers_state(const std::map<std::size_t, Trajectory>& others);
-  /// Frees all workspaces but that with the caller's state; returns false if there was no other.
+  /// Frees all workspaces but that with the caller's state, which is in the pool from now on. Returns false
+  /// if nothing changes.
   bool release_others();
 
  private:
   std::unique_ptr<Workspace> take_idle();
 
   const Instance& instance_;
+  PlanOptions options_;
   const Incumbent& incumbent_;
   const StopCondition& stop_;
   std::mutex mutex_;
   std::vector<std::unique_ptr<Workspace>> idle_;
+  std::unique_ptr<Workspace> callers_;  // with the caller's state, while it is not in the pool
 };
 
 }  // namespace fleetplan::core

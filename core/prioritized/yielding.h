@@ -12,8 +12,8 @@ namespace fleetplan::core {
 /// Whether robots of the problem yield.
 bool any_yields(const Instance& instance);
 
-/// Plans a robot as PlanState::search() does, as if each planned robot that yields were gone as soon as it has
-/// served its own goals and stood there for the start safe interval. No trajectory if there are no such
+/// Plans a robot as PlanState::search() does, as if each planned robot that yields were gone as soon as it
+/// has served its own goals and stood there for the start safe interval. No trajectory if there are no such
 /// robots. Afterwards all reservations are as they were.
 SearchResult plan_past_yielding(PlanState& state, std::size_t robot, const SearchLimits& limits,
                                 const StopCondition& stop);

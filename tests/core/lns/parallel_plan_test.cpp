@@ -69,7 +69,7 @@ TEST_P(PlanInParallel, ReturnsTheSamePlanForRandomFleets) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     support::Dice dice(seed);
     const Problem problem = support::random_problem(dice, 10);
-    const PlanOptions options = anytime(40, GetParam());
+    const PlanOptions options = anytime(120, GetParam());
     support::ThreadedExecutor executor(4);
     ASSERT_EQ(support::exact_text(plan(problem, options, StopCondition::never(), executor)),
               support::exact_text(plan(problem, options, StopCondition::never())));
