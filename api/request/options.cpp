@@ -101,7 +101,7 @@ constexpr std::array<OptionRow, 21> kTable{{
     {"any_angle", "Any angle", "", BooleanOption{&PlanOptions::any_angle},
      "Allows straight moves between any two cells in line of sight, not only between neighbours."},
     {"connectivity", "Connectivity", "", CountOption{kConnectivities, &PlanOptions::connectivity},
-     "Number of neighbours of a cell. With `any_angle`, the improvement of `anytime` goes on with twice as "
+     "Number of neighbours of a cell. With `any_angle`, later improvement of `anytime` may have twice as "
      "many."},
     {"max_iterations", "Improvement steps", "", BoundOption{kMostIterations, &PlanOptions::max_iterations},
      "Bounds `anytime` by a number of improvement steps instead of the clock."},

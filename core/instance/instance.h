@@ -33,7 +33,8 @@ class Instance {
  public:
   /// If the stop condition is met while obstacles and committed motion are indexed, nothing can be planned.
   Instance(const Problem& problem, const PlanOptions& options, const StopCondition& stop);
-  /// With the fixed reservations of another instance of the same problem and options.
+  /// With the fixed reservations of another instance of the same problem; only the connectivity of its
+  /// options may differ.
   Instance(const Problem& problem, const PlanOptions& options,
            std::shared_ptr<const FixedReservations> fixed_reservations, const StopCondition& stop);
   Instance(const Instance&) = delete;

@@ -177,7 +177,7 @@ std::optional<Exhaustion::Test> Exhaustion::next_test(std::int64_t expansions) {
     const std::size_t robot = planned[next_to_test_++ % planned.size()];
     if (!may_gain(robot)) continue;
     is_testing_ = true;
-    Test test{robot, incumbent_.version(robot), kProof};
+    Test test{robot, incumbent_.version(robot), moves_, kProof};
     test.limits.bound = incumbent_.cost_with_share(robot, incumbent_.share(robot) - kLeastDelay);
     test.limits.max_expansions = most;
     return test;
@@ -192,7 +192,18 @@ void Exhaustion::run(Test& test, PlanState& state, const StopCondition& stop) co
 void Exhaustion::learn(const Test& test) {
   is_testing_ = false;
   expansions_ += test.result.expansions;
-  if (!test.result.trajectory && test.result.complete) cheapest_[test.robot] = test.version;
+  const bool is_proof = !test.result.trajectory && test.result.complete && test.moves == moves_;
+  if (is_proof) cheapest_[test.robot] = test.version;
+}
+
+bool Exhaustion::has_proofs() const {
+  return std::any_of(cheapest_.begin(), cheapest_.end(),
+                     [](const auto& version) { return version.has_value(); });
+}
+
+void Exhaustion::forget() {
+  ++moves_;
+  cheapest_.assign(cheapest_.size(), std::nullopt);
 }
 
 namespace {

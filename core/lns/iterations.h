@@ -98,6 +98,7 @@ class Exhaustion {
   struct Test {
     std::size_t robot = 0;
     std::int64_t version = 0;  // version of the robot's trajectory
+    int moves = 0;             // how often robots have got more moves
     SearchLimits limits;
     SearchResult result{std::nullopt, false, 0};
   };
@@ -119,6 +120,10 @@ class Exhaustion {
   std::optional<Test> next_test(std::int64_t expansions);
   void run(Test& test, PlanState& state, const StopCondition& stop) const;
   void learn(const Test& test);
+  /// Whether a robot is known to have no cheaper trajectory.
+  bool has_proofs() const;
+  /// Forgets what was learned: from now on, robots have more moves.
+  void forget();
 
  private:
   bool at_lower_bound() const;
@@ -131,6 +136,7 @@ class Exhaustion {
   std::vector<std::optional<std::int64_t>> cheapest_;  // by robot: the version known to be the cheapest
   std::size_t next_to_test_ = 0;                       // position in planned()
   bool is_testing_ = false;
+  int moves_ = 0;                // how often robots have got more moves
   std::int64_t expansions_ = 0;  // expansions of the tests
 };
 

@@ -76,27 +76,38 @@ class LargeNeighbourhoodSearch {
 
  private:
   void improve(const BeforeRound& before_round) {
-    result_.exhausted = exhaustion_.nothing_left();
+    result_.exhausted = is_exhausted();
     while (iterations_left_ > 0 && !result_.exhausted && !result_.cut_off) {
       if (before_round && !stop_.met()) {
         workspaces_.update_callers_state(iterations_.best().differences());
         before_round(result_);
       }
+      if (!before_round) workspaces_.update_callers_state({});
       run_round(steps_of_round(before_round ? kReportedRound : kRound));
-      result_.exhausted = exhaustion_.nothing_left();
+      result_.exhausted = is_exhausted();
       result_.cut_off = !result_.exhausted && (!may_improve_ || stop_.met() || !has_memory());
     }
     complete_all();
   }
 
+  /// Whether nothing is left to try, with more neighbours of vertices either.
+  bool is_exhausted() {
+    if (exhaustion_.nothing_left() && exhaustion_.has_proofs()) add_moves();
+    return exhaustion_.nothing_left();
+  }
+
   /// The steps of the next round, at most so many. A round ends where vertices get more neighbours, so that
   /// this depends on the steps before alone.
   std::size_t steps_of_round(std::size_t most) {
-    if (has_more_moves_) return most;
-    if (steps_before_more_moves_ > 0) return std::min(most, steps_before_more_moves_);
-    if (may_help_) workspaces_.add_moves();
+    if (steps_before_more_moves_ == 0) add_moves();
+    return has_more_moves_ ? most : std::min(most, steps_before_more_moves_);
+  }
+
+  void add_moves() {
+    if (has_more_moves_) return;
     has_more_moves_ = true;
-    return most;
+    if (may_help_ && workspaces_.add_moves()) exhaustion_.forget();
+    shortages_ = memory_shortages();
   }
 
   void run_round(std::size_t steps) {
@@ -120,7 +131,10 @@ class LargeNeighbourhoodSearch {
   /// Runs one step, on any thread. Steps are begun and completed by one thread at a time.
   void run_step() {
     std::unique_ptr<Workspace> workspace = workspaces_.take();
-    if (!workspace) return;
+    if (!workspace) {
+      is_over_ = true;
+      return;
+    }
     try {
       const auto running = steps_.begin([&](Step& step) { complete(step, *workspace); },
                                         [&] { return next_step(*workspace); });

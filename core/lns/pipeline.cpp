@@ -4,6 +4,8 @@
 #include <new>
 #include <utility>
 
+#include "core/runtime/memory_account.h"
+
 namespace fleetplan::core {
 
 Workspace::Workspace(PlanState& state, const Incumbent& incumbent, const StopCondition& stop)
@@ -67,29 +69,38 @@ WorkspacePool::WorkspacePool(PlanState& state, const Incumbent& incumbent, const
   idle_.push_back(std::make_unique<Workspace>(state, incumbent, stop));
 }
 
-void WorkspacePool::add_moves() {
+/// With a horizon, costs have estimates that depend on the moves, so those before and after would not
+/// compare.
+bool WorkspacePool::may_add_moves() const {
   constexpr int kMostNeighbours = 32;
-  bool may_add = options_.any_angle && options_.connectivity < kMostNeighbours;
+  if (!options_.any_angle || options_.horizon || options_.connectivity == kMostNeighbours) return false;
+  // Bounded: the goals of a request, once.
   for (std::size_t robot = 0; robot < instance_.size(); ++robot) {
-    may_add = may_add && instance_.stages(robot)[0].free_space->finer().count() == 0;
+    const std::size_t goals = instance_.itinerary(robot).goals.size();
+    for (std::size_t stage = 0; stage <= (instance_.stages(robot).changes_load() ? goals : 0); ++stage) {
+      if (instance_.stages(robot)[stage].free_space->finer().count() > 0) return false;
+    }
   }
-  if (!may_add) return;
+  return true;
+}
+
+bool WorkspacePool::add_moves() {
+  if (!may_add_moves()) return false;
+  std::erase_if(idle_, [](const auto& workspace) { return workspace->has_own_state(); });
   PlanOptions options = options_;
   options.connectivity *= 2;
   std::unique_ptr<Workspace> first;
   try {
     first = std::make_unique<Workspace>(instance_, options, incumbent_, stop_);
-    if (!first->follow_incumbent(stop_)) return;
+    if (!first->follow_incumbent(stop_) || is_short_of_memory()) return false;
   } catch (const std::bad_alloc&) {  // not granted to the job
-    return;
+    return false;
   }
   options_ = options;
-  for (auto& workspace : idle_) {
-    if (!workspace->has_own_state()) callers_ = std::move(workspace);
-  }
+  callers_ = std::move(idle_.front());
   idle_.clear();
   idle_.push_back(std::move(first));
-  callers_->state().release_memory();
+  return true;
 }
 
 std::unique_ptr<Workspace> WorkspacePool::take() {

@@ -145,10 +145,10 @@ class WorkspacePool {
   std::unique_ptr<Workspace> take();
   void give_back(std::unique_ptr<Workspace> workspace);
   /// From now on, vertices have twice as many neighbours: searches take longer, and find better ways around
-  /// others. Nothing changes without any-angle moves, where the lattice is refined, which would take time
-  /// again, and if time or memory do not suffice. All workspaces have been given back; that with the caller's
-  /// state leaves the pool.
-  void add_moves();
+  /// others. Returns false, and nothing changes, without any-angle moves, with a horizon, where the lattice
+  /// is refined, which would take time again, and if time or memory do not suffice. All workspaces have been
+  /// given back; that with the caller's state leaves the pool.
+  bool add_moves();
   /// Updates the workspace with the caller's state, with other trajectories for some robots. All workspaces
   /// have been given back, and the incumbent does not change.
   void update_callers_state(const std::map<std::size_t, Trajectory>& others);
@@ -157,6 +157,7 @@ class WorkspacePool {
   bool release_others();
 
  private:
+  bool may_add_moves() const;
   std::unique_ptr<Workspace> take_idle();
 
   const Instance& instance_;

@@ -50,8 +50,6 @@ class PlanState {
 
   /// Gives up what searches keep for later, if memory is short.
   void relieve_memory() { memory_.relieve(); }
-  /// Gives it up in any case, before searches that do not use this state.
-  void release_memory() { memory_.release(); }
 
   /// Expansions of all searches among reservations so far.
   std::int64_t expansions() const { return expansions_; }

@@ -42,13 +42,13 @@ class SearchMemory {
   void relieve() {
     if (is_short_of_memory()) release();
   }
-  /// Gives it up in any case.
+
+ private:
   void release() {
     search_.release_memory();
     spaces_.discard_all();
   }
 
- private:
   SearchSpaces spaces_;
   AaSipp search_;
 };
