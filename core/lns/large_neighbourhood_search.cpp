@@ -100,12 +100,12 @@ class LargeNeighbourhoodSearch {
   /// this depends on the steps before alone.
   std::size_t steps_of_round(std::size_t most) {
     if (steps_before_more_moves_ == 0) add_moves();
-    return has_more_moves_ ? most : std::min(most, steps_before_more_moves_);
+    return asked_for_moves_ ? most : std::min(most, steps_before_more_moves_);
   }
 
   void add_moves() {
-    if (has_more_moves_) return;
-    has_more_moves_ = true;
+    if (asked_for_moves_) return;
+    asked_for_moves_ = true;
     if (may_help_ && workspaces_.add_moves()) exhaustion_.forget();
     shortages_ = memory_shortages();
   }
@@ -209,7 +209,7 @@ class LargeNeighbourhoodSearch {
   Iterations iterations_;
   Pipeline<Step> steps_;
   std::size_t steps_before_more_moves_;
-  bool has_more_moves_ = false;
+  bool asked_for_moves_ = false;  // whether there are more moves now or not
   WorkspacePool workspaces_;
   Executor& executor_;
   const StopCondition& stop_;

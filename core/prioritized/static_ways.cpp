@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/prioritized/enclosure.h"
 #include "core/sipp/goals.h"
 
 namespace fleetplan::core {

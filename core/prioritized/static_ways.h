@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/instance/instance.h"
-#include "core/prioritized/enclosure.h"
 #include "core/prioritized/fleet_reservations.h"
 #include "core/prioritized/search_memory.h"
 #include "core/runtime/stop_condition.h"

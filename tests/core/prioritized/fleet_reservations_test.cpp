@@ -13,12 +13,7 @@ namespace TEST_FILE {
 using support::robot_at;
 using Robots = std::vector<std::size_t>;
 
-/// Robot 0 has to cross the middle of a hall, where robot 1 is.
-struct Hall : Planning {
-  Hall()
-      : Planning(OccupancyGrid(9, 5, 1.0),
-                 {robot_at(0.5, 2.5).to(8.5, 2.5), robot_at(4.5, 2.5).to(4.5, 4.5)}) {}
-
+struct Hall : CrossedHall {
   /// The robots that conflict with a straight move of 8 s through the middle from t = `departure`.
   Robots crossing_conflicts(double departure = 0.0) const {
     return reservations.conflicting_robots(0, through({{0.5, 2.5}, {8.5, 2.5}}, departure));

@@ -13,14 +13,8 @@ namespace fleetplan::core {
 namespace TEST_FILE {
 
 using support::robot_at;
+using Hall = CrossedHall;
 using Robots = std::vector<std::size_t>;
-
-/// Robot 0 has to cross the middle of a hall, where robot 1 is.
-struct Hall : Planning {
-  Hall()
-      : Planning(OccupancyGrid(9, 5, 1.0),
-                 {robot_at(0.5, 2.5).to(8.5, 2.5), robot_at(4.5, 2.5).to(4.5, 4.5)}) {}
-};
 
 TEST(PlanState, PlansAmongReservationsWithoutChangingThem) {
   Hall p;

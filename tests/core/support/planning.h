@@ -53,6 +53,13 @@ struct Planning {
   ProgressReport progress{reservations, nullptr};  // no observer
 };
 
+/// Robot 0 has to cross the middle of a hall, where robot 1 is.
+struct CrossedHall : Planning {
+  CrossedHall()
+      : Planning(OccupancyGrid(9, 5, 1.0),
+                 {support::robot_at(0.5, 2.5).to(8.5, 2.5), support::robot_at(4.5, 2.5).to(4.5, 4.5)}) {}
+};
+
 /// A stop condition that is met.
 inline StopCondition met() {
   std::stop_source source;
