@@ -1,7 +1,12 @@
 #pragma once
 
+// What searches keep for later ones.
+
 #include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <new>
+#include <vector>
 
 #include "core/instance/instance.h"
 #include "core/reservation/reservation_table.h"
@@ -11,6 +16,31 @@
 #include "core/sipp/search_space.h"
 
 namespace fleetplan::core {
+
+/// The search spaces of the robots, kept from search to search as far as there is memory: those used least
+/// recently are discarded, and computed again when they are needed.
+class SearchSpaces {
+ public:
+  /// `instance` outlives this object.
+  explicit SearchSpaces(const Instance& instance);
+
+  /// Returns the search space of a robot, valid until the next call for another robot; null if `stop` is met
+  /// before it is made.
+  SearchSpace* of(std::size_t robot, const StopCondition& stop);
+  void discard_all();
+
+ private:
+  struct Entry {
+    std::unique_ptr<SearchSpace> space;
+    std::int64_t last_use = 0;  // the number of the last call for it
+  };
+
+  void make_room();
+
+  const Instance& instance_;
+  std::vector<Entry> entries_;  // by robot
+  std::int64_t calls_ = 0;
+};
 
 /// What searches keep for later ones: the search spaces of robots, and the arrays of a search. When the job's
 /// memory is short (see MemoryAccount), it is given up.

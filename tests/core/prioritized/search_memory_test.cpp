@@ -1,10 +1,11 @@
+#include "core/prioritized/search_memory.h"
+
 #include <gtest/gtest.h>
 
 #include <chrono>
 
 #include "core/runtime/memory_account.h"
 #include "core/runtime/stop_condition.h"
-#include "core/sipp/search_space.h"
 #include "tests/core/support/planning.h"
 
 namespace fleetplan::core {
