@@ -68,7 +68,7 @@ std::int64_t StaticWays::find_leg(std::size_t robot, SearchSpace& space, std::si
                                   std::int64_t max_expansions, const StopCondition& stop) {
   Way& way = ways_[robot];
   const int from = space.begin_of(goal);
-  if (from == space.goal(goal).vertex) {
+  if (from == space.goal_pose(goal).vertex) {
     way.kind = Way::Kind::on_lattice;
     return 0;
   }
@@ -123,15 +123,16 @@ bool StaticWays::test_enclosure(std::size_t robot, const Robots& staying, std::i
 bool StaticWays::takes_too_long(std::size_t robot, const StopCondition& stop) {
   return memory_.within_memory(false, [&] {
     SearchSpace* space = memory_.space_of(robot, stop);
-    return space != nullptr && estimated_end(*space, stop) >= instance_.stages(robot).longest_plan();
+    const auto end = space != nullptr ? estimated_end(*space, stop) : std::nullopt;
+    return end && *end >= instance_.stages(robot).longest_plan();
   });
 }
 
 double StaticWays::estimated_alone(std::size_t robot, const StopCondition& stop) {
   return memory_.within_memory(kForever, [&] {
     SearchSpace* space = memory_.space_of(robot, stop);
-    const double end = space != nullptr ? estimated_end(*space, stop) : 0.0;
-    return end > 0.0 ? end : kForever;
+    const auto end = space != nullptr ? estimated_end(*space, stop) : std::nullopt;
+    return end && *end > 0.0 ? *end : kForever;
   });
 }
 

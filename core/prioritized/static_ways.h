@@ -51,7 +51,7 @@ class StaticWays {
 
   /// Whether the way to the robot's goal, alone on the map, takes longer than any plan may.
   bool takes_too_long(std::size_t robot, const StopCondition& stop);
-  /// Estimates its cost, alone on the map, seconds; kForever if `stop` is met first.
+  /// Estimates its cost, alone on the map, seconds; kForever if that is 0, or if `stop` is met first.
   double estimated_alone(std::size_t robot, const StopCondition& stop);
   /// Expansions of searches on the map, for way_to_goal().
   std::int64_t map_expansions() const { return map_expansions_; }

@@ -254,7 +254,7 @@ bool Search::can_serve_all() {
 
 /// The heading in which the robot begins; if it may have any, the best one by the estimate.
 double Search::heading_at_start(PlaceId start) const {
-  if (!space_.any_heading_at_start()) return space_.itinerary().pose.theta;
+  if (!space_.any_heading_at_start()) return space_.heading_at_start();
   const CostToGo::Estimate& estimate = state_.places[start].estimate;
   const bool is_ahead = estimate.seconds <= estimate.reverse_seconds;
   return is_ahead ? estimate.heading : opposite_heading(estimate.heading);
@@ -263,7 +263,7 @@ double Search::heading_at_start(PlaceId start) const {
 /// Labels and expands the start, unless the robot cannot be there or the goal is out of bound.
 void Search::label_start() {
   const PlaceId start = successors_.place_of(space_.vertices().start(), 0);
-  const double t_begin = space_.itinerary().t_begin;
+  const double t_begin = space_.t_begin();
   const int end = state_.places[start].end_interval;
   int interval = state_.places[start].first_interval;
   while (interval < end && state_.intervals[interval].end < t_begin) ++interval;
@@ -274,7 +274,7 @@ void Search::label_start() {
   const double t = stays ? t_begin : t_begin + limits_.start_delay;
   if (!state_.intervals[interval].contains(t)) return;
   const double heading = heading_at_start(start);
-  const double served = space_.itinerary().service_done;
+  const double served = space_.service_done();
   if (!(evaluate(start, interval, t, heading).cost - served < limits_.bound)) return;
   state_.dominance.add(interval, t, heading);
   const LabelId label = add_label({t, heading, t, LabelId::none, start, interval, false, false});

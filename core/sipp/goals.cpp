@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "core/geometry/position.h"
@@ -14,14 +15,12 @@ namespace {
 constexpr int kGoalsBetweenPolls = 16;
 /// Seconds; far more than the tolerances of times and headings with which a rest counts as a service.
 constexpr double kClearlyBefore = 1e-3;
-/// Seconds: rounding of what is left of a way. A move gains far more.
-constexpr double kNoGain = 1e-6;
 
 /// Estimates the way from one goal to the next one, seconds. A heading that is free is the best one.
 double estimated_leg(SearchSpace& space, std::size_t from, const StopCondition& stop) {
   const Motion& motion = space.vertices().motion();
   const Vertices::GoalPose& here = space.vertices(from + 1).goals()[from];
-  const Vertices::GoalPose& next = space.goal(from + 1);
+  const Vertices::GoalPose& next = space.goal_pose(from + 1);
   if (here.vertex == next.vertex) {
     return here.heading && next.heading ? motion.rotation_time(*here.heading, *next.heading) : 0.0;
   }
@@ -40,16 +39,15 @@ Stage stage_at(const SearchSpace& space, std::size_t index) {
 
 /// The stages of a robot with a goal, without the releases; none if `stop` is met first.
 IndexedVector<Stage> stages_of(SearchSpace& space, const StopCondition& stop) {
-  const std::vector<Goal>& goals = space.itinerary().goals;
-  IndexedVector<Stage> stages(goals.size());
-  const int last = static_cast<int>(goals.size()) - 1;
+  IndexedVector<Stage> stages(space.goal_count());
+  const int last = static_cast<int>(space.goal_count()) - 1;
   for (int k = last; k >= 0; --k) {
     if ((last - k) % kGoalsBetweenPolls == kGoalsBetweenPolls - 1 && stop.met()) return {};
     const auto index = static_cast<std::size_t>(k);
-    const Goal& goal = goals[index];
+    const Goal& goal = space.goal(index);
     stages[k] = stage_at(space, index);
     Stage& stage = stages[k];
-    stage.goal = space.goal(index);
+    stage.goal = space.goal_pose(index);
     stage.service = goal.service;
     stage.not_before = goal.not_before;
     stage.after = goal.service;
@@ -58,7 +56,7 @@ IndexedVector<Stage> stages_of(SearchSpace& space, const StopCondition& stop) {
     if (k < last) stage.after += estimated_leg(space, index, stop) + stages[k + 1].after;
   }
   if (!space.rests_with_other_radius()) return stages;
-  Stage rest = stage_at(space, goals.size());
+  Stage rest = stage_at(space, space.goal_count());
   rest.goal = rest.vertices->goals().back();
   rest.is_rest = true;
   stages.push_back(rest);
@@ -75,61 +73,17 @@ void set_releases(IndexedVector<Stage>& stages, double last_free_from) {
   }
 }
 
-/// The labels from the start to `last`.
-std::vector<LabelId> path_to(LabelId last, const SearchState& state) {
-  std::vector<LabelId> path;
-  for (LabelId id = last; id != LabelId::none; id = state.labels[id].parent) path.push_back(id);
-  std::reverse(path.begin(), path.end());
-  return path;
-}
-
-void append(Trajectory& trajectory, const TimedSegment& move, const std::optional<SpeedProfile>& profile,
-            bool reverse) {
-  trajectory.moves.push_back(move);
-  if (profile) {
-    trajectory.profiles.resize(trajectory.moves.size());
-    trajectory.profiles.back() = profile;
-  }
-  if (!reverse) return;
-  trajectory.reverse.resize(trajectory.moves.size(), false);
-  trajectory.reverse.back() = true;
-}
-
-/// Appends the pieces of the move to a label. The first one that continues the last move, at the same speed,
-/// is joined to that.
-void append_pieces(Trajectory& trajectory, const std::vector<DriveZones::Piece>& pieces, const Label& to,
-                   bool continues) {
-  constexpr double kSameSpeed = 1e-9;  // relative; far above rounding
-  for (const DriveZones::Piece& piece : pieces) {
-    const double t_end = &piece == &pieces.back() ? to.arrival : to.departure + piece.end;
-    const bool goes_on = continues || &piece != &pieces.front();
-    if (goes_on && &piece == &pieces.front() && !piece.profile) {
-      TimedSegment& last = trajectory.moves.back();
-      const double speed = last.path.length() / last.duration();
-      if (std::abs(speed - piece.linear_speed) <= kSameSpeed * speed) {
-        last.path.to = piece.path.to;
-        last.t_end = t_end;
-        continue;
-      }
-    }
-    append(trajectory, {piece.path, to.departure + piece.begin, t_end}, piece.profile, to.reverse);
-    if (!goes_on) continue;
-    trajectory.goes_on.resize(trajectory.moves.size(), false);
-    trajectory.goes_on.back() = true;
-  }
-}
-
 }  // namespace
 
-double estimated_end(SearchSpace& space, const StopCondition& stop) {
+std::optional<double> estimated_end(SearchSpace& space, const StopCondition& stop) {
   IndexedVector<Stage> stages = stages_of(space, stop);
-  if (stages.empty()) return 0.0;
+  if (stages.empty()) return std::nullopt;
   set_releases(stages, 0.0);
   const Stage& first = stages[0];
   const int start = space.vertices().start();
   const bool leaves = start != first.goal.vertex;
   const double leg = leaves ? space.cost_to_go(0).from(start, stop).least() : 0.0;
-  return std::max(first.release, space.itinerary().t_begin + leg + first.after);
+  return std::max(first.release, space.t_begin() + leg + first.after);
 }
 
 Goals::Goals(SearchSpace& space, double horizon, SearchState& state)
@@ -138,7 +92,7 @@ Goals::Goals(SearchSpace& space, double horizon, SearchState& state)
       state_(state),
       changes_load_(space.changes_load()),
       last_stage_(static_cast<int>(space.goal_count()) - (space.rests_with_other_radius() ? 0 : 1)),
-      ends_anywhere_(space.itinerary().goals.back().anywhere) {}
+      ends_anywhere_(space.goal(space.goal_count() - 1).anywhere) {}
 
 bool Goals::begin(const StopCondition& stop) {
   stages_ = stages_of(space_, stop);
@@ -161,7 +115,7 @@ bool Goals::end_at(PlaceId place) {
 }
 
 bool Goals::can_serve(int stage, const Place& place) const {
-  const double done = stage == 0 ? space_.itinerary().service_done : 0.0;
+  const double done = stage == 0 ? space_.service_done() : 0.0;
   for (int k = place.first_interval; k < place.end_interval; ++k) {
     const SafeInterval& safe = state_.intervals[k];
     if (stages_[stage].service_end(safe.begin) - done <= safe.end) return true;
@@ -174,9 +128,9 @@ ServiceStop Goals::service_stop(const Label& label) const {
   const bool at_start = label.parent == LabelId::none;
   ServiceStop stop{label.arrival, 0.0, label.heading};
   if (at_start && space_.begins_in_goal_pose()) {
-    stop.t_rest = space_.itinerary().arrived;
+    stop.t_rest = space_.arrived();
   } else {
-    if (at_start) stop.t_rest = space_.itinerary().t_begin;  // also if it has to stay there for longer
+    if (at_start) stop.t_rest = space_.t_begin();  // also if it has to stay there for longer
     if (stage.goal.heading) {
       const Position place = stage.vertices->position(stage.goal.vertex);
       stop.t_rest += stage.vertices->times().rotation_time(place, label.heading, *stage.goal.heading);
@@ -208,95 +162,180 @@ bool Goals::touches_goal(const Place& place) const {
   return (place.position - goal).norm() <= kContactTolerance;
 }
 
-Trajectory Goals::trajectory_to(LabelId end) const {
-  const std::vector<LabelId> path = path_to(end, state_);
-  Trajectory trajectory = space_.itinerary().committed;
-  if (trajectory.moves.empty()) trajectory.start = state_.place_at(path.front()).position;
+namespace {
+
+/// Seconds: rounding of what is left of a way. A move gains far more.
+constexpr double kNoGain = 1e-6;
+
+/// Makes the trajectory of a path of labels: the moves between them, the visits to the goals and the cost.
+class PathToTrajectory {
+ public:
+  PathToTrajectory(const Goals& goals, const SearchSpace& space, const SearchState& state)
+      : goals_(goals), space_(space), state_(state), trajectory_(space.committed()) {}
+
+  Trajectory to(LabelId end);
+
+ private:
+  std::vector<LabelId> path_to(LabelId last) const;
+  void append_move(const Label& from, const Label& to);
+  void append_pieces(const std::vector<DriveZones::Piece>& pieces, const Label& to, bool continues);
+  void append(const TimedSegment& move, const std::optional<SpeedProfile>& profile, bool reverse);
+  void append_service(const Label& from, const Label& to);
+  void stop_at_rest(const Label& first, const Label& last);
+  double time_left(const Label& label) const;
+  double end_after_rest(const Label& label, double t) const;
+  std::vector<Visit> visits_after_rest(const Label& label, double t) const;
+
+  const Goals& goals_;
+  const SearchSpace& space_;
+  const SearchState& state_;
+  Trajectory trajectory_;
+};
+
+Trajectory PathToTrajectory::to(LabelId end) {
+  const std::vector<LabelId> path = path_to(end);
+  if (trajectory_.moves.empty()) trajectory_.start = state_.place_at(path.front()).position;
   for (std::size_t i = 1; i < path.size(); ++i) {
     const Label& from = state_.labels[path[i - 1]];
     const Label& to = state_.labels[path[i]];
     if (to.by_translation) {
-      append_move(trajectory, from, to);
+      append_move(from, to);
     } else {
-      append_service(trajectory, from, to);
+      append_service(from, to);
     }
   }
   const Label& last = state_.labels[end];
-  if (!is_end(last.place, last.interval)) {
-    stop_at_rest(trajectory, state_.labels[path.front()], last);
-    return trajectory;
+  if (!goals_.is_end(last.place, last.interval)) {
+    stop_at_rest(state_.labels[path.front()], last);
+  } else if (goals_.stage(goals_.last_stage()).is_rest) {
+    trajectory_.cost = trajectory_.last_served;
+  } else {
+    trajectory_.cost = std::max(goals_.service_stop(last).t_end, last.arrival);
   }
-  trajectory.cost =
-      stages_.back().is_rest ? trajectory.last_served : std::max(service_stop(last).t_end, last.arrival);
-  return trajectory;
+  return std::move(trajectory_);
 }
 
-void Goals::stop_at_rest(Trajectory& trajectory, const Label& first, const Label& last) const {
-  const double t_begin = space_.itinerary().t_begin;
-  const double t_end = std::max(last.arrival, horizon_);
-  trajectory.stops_at = t_end;
-  trajectory.cost = estimated_end(last, t_end);
-  trajectory.estimated_visits = estimated_visits(last, t_end);
+/// The labels from the start to `last`.
+std::vector<LabelId> PathToTrajectory::path_to(LabelId last) const {
+  std::vector<LabelId> path;
+  for (LabelId id = last; id != LabelId::none; id = state_.labels[id].parent) path.push_back(id);
+  std::reverse(path.begin(), path.end());
+  return path;
+}
+
+/// A move that continues straight without a stop is joined to the one before.
+void PathToTrajectory::append_move(const Label& from, const Label& to) {
+  const bool continues = from.by_translation && to.departure == from.arrival && from.reverse == to.reverse &&
+                         angle_between(from.heading, to.heading) <= kSameHeading;
+  const Segment way{state_.places[from.place].position, state_.places[to.place].position};
+  const MoveTimes& times = goals_.stage(state_.places[to.place].stage).vertices->times();
+  if (times.limit_speeds() || times.motion().linear_inertia.is_limited) {
+    append_pieces(times.pieces(way), to, continues);
+  } else if (continues) {
+    trajectory_.moves.back().path.to = way.to;
+    trajectory_.moves.back().t_end = to.arrival;
+  } else {
+    append({way, to.departure, to.arrival}, std::nullopt, to.reverse);
+  }
+}
+
+/// Appends the pieces of the move to a label. The first one that continues the last move, at the same speed,
+/// is joined to that.
+void PathToTrajectory::append_pieces(const std::vector<DriveZones::Piece>& pieces, const Label& to,
+                                     bool continues) {
+  constexpr double kSameSpeed = 1e-9;  // relative; far above rounding
+  for (const DriveZones::Piece& piece : pieces) {
+    const double t_end = &piece == &pieces.back() ? to.arrival : to.departure + piece.end;
+    const bool goes_on = continues || &piece != &pieces.front();
+    if (goes_on && &piece == &pieces.front() && !piece.profile) {
+      TimedSegment& last = trajectory_.moves.back();
+      const double speed = last.path.length() / last.duration();
+      if (std::abs(speed - piece.linear_speed) <= kSameSpeed * speed) {
+        last.path.to = piece.path.to;
+        last.t_end = t_end;
+        continue;
+      }
+    }
+    append({piece.path, to.departure + piece.begin, t_end}, piece.profile, to.reverse);
+    if (!goes_on) continue;
+    trajectory_.goes_on.resize(trajectory_.moves.size(), false);
+    trajectory_.goes_on.back() = true;
+  }
+}
+
+void PathToTrajectory::append(const TimedSegment& move, const std::optional<SpeedProfile>& profile,
+                              bool reverse) {
+  trajectory_.moves.push_back(move);
+  if (profile) {
+    trajectory_.profiles.resize(trajectory_.moves.size());
+    trajectory_.profiles.back() = profile;
+  }
+  if (!reverse) return;
+  trajectory_.reverse.resize(trajectory_.moves.size(), false);
+  trajectory_.reverse.back() = true;
+}
+
+void PathToTrajectory::append_service(const Label& from, const Label& to) {
+  const int stage = state_.places[from.place].stage;
+  const ServiceStop stop = goals_.service_stop(from);
+  if (state_.places[to.place].stage == static_cast<int>(space_.goal_count())) {
+    trajectory_.last_served = std::max(stop.t_end, space_.t_begin());
+    return;
+  }
+  trajectory_.visits.push_back(
+      {space_.number_of_goal(static_cast<std::size_t>(stage)), stop.t_rest, stop.t_end});
+}
+
+/// Ends a path from the first of these labels at rest in the last one, beyond the horizon.
+void PathToTrajectory::stop_at_rest(const Label& first, const Label& last) {
+  const double t_begin = space_.t_begin();
+  const double t_end = std::max(last.arrival, goals_.horizon());
+  trajectory_.stops_at = t_end;
+  trajectory_.cost = end_after_rest(last, t_end);
+  trajectory_.estimated_visits = visits_after_rest(last, t_end);
   // A robot that waits for the `not_before` of a goal gains time, and one that has served its goals need not.
-  const double left_at_begin = estimated_end(first, t_begin) - t_begin;
-  trajectory.gains_nothing =
-      t_end > t_begin && left_at_begin > kNoGain && trajectory.cost - t_end >= left_at_begin - kNoGain;
+  const double left_at_begin = end_after_rest(first, t_begin) - t_begin;
+  trajectory_.gains_nothing =
+      t_end > t_begin && left_at_begin > kNoGain && trajectory_.cost - t_end >= left_at_begin - kNoGain;
 }
 
-double Goals::time_left(const Label& label) const {
+/// Estimate: seconds from rest in this label to the end of the last service, without waiting for any
+/// `not_before`.
+double PathToTrajectory::time_left(const Label& label) const {
   const Place& place = state_.places[label.place];
   return place.any_heading ? place.estimate.seconds
                            : place.estimate.with_rotation(label.heading, space_.vertices().motion());
 }
 
-double Goals::estimated_end(const Label& label, double t) const {
+/// Estimates when a robot that rests in this label until `t` ends its last service, seconds.
+double PathToTrajectory::end_after_rest(const Label& label, double t) const {
   double end = t + time_left(label);
-  for (int k = state_.places[label.place].stage; k < static_cast<int>(stages_.size()); ++k) {
-    end = std::max(end, stages_[k].not_before + stages_[k].after);
+  for (int k = state_.places[label.place].stage; k <= goals_.last_stage(); ++k) {
+    end = std::max(end, goals_.stage(k).not_before + goals_.stage(k).after);
   }
   return end;
 }
 
-std::vector<Visit> Goals::estimated_visits(const Label& label, double t) const {
+/// Estimates the visits that are left to a robot that rests in this label until `t`.
+std::vector<Visit> PathToTrajectory::visits_after_rest(const Label& label, double t) const {
   const auto count = static_cast<int>(space_.goal_count());
   const int first = state_.places[label.place].stage;
   std::vector<Visit> visits;
   double t_arrive = t;
   for (int k = first; k < count; ++k) {
-    const double way = k == first ? time_left(label) - stages_[k].after
-                                  : stages_[k - 1].after - stages_[k - 1].service - stages_[k].after;
+    const Stage& stage = goals_.stage(k);
+    const double way = k == first ? time_left(label) - stage.after
+                                  : goals_.stage(k - 1).after - goals_.stage(k - 1).service - stage.after;
     t_arrive += std::max(0.0, way);  // not less by rounding
-    const double t_leave = stages_[k].service_end(t_arrive);
-    visits.push_back({space_.itinerary().first_goal + static_cast<std::size_t>(k), t_arrive, t_leave});
+    const double t_leave = stage.service_end(t_arrive);
+    visits.push_back({space_.number_of_goal(static_cast<std::size_t>(k)), t_arrive, t_leave});
     t_arrive = t_leave;
   }
   return visits;
 }
 
-void Goals::append_service(Trajectory& trajectory, const Label& from, const Label& to) const {
-  const int stage = state_.places[from.place].stage;
-  const ServiceStop stop = service_stop(from);
-  if (state_.places[to.place].stage == static_cast<int>(space_.goal_count())) {
-    trajectory.last_served = std::max(stop.t_end, space_.itinerary().t_begin);
-    return;
-  }
-  trajectory.visits.push_back(
-      {space_.itinerary().first_goal + static_cast<std::size_t>(stage), stop.t_rest, stop.t_end});
-}
+}  // namespace
 
-void Goals::append_move(Trajectory& trajectory, const Label& from, const Label& to) const {
-  const bool continues = from.by_translation && to.departure == from.arrival && from.reverse == to.reverse &&
-                         angle_between(from.heading, to.heading) <= kSameHeading;
-  const Segment way{state_.places[from.place].position, state_.places[to.place].position};
-  const MoveTimes& times = stages_[state_.places[to.place].stage].vertices->times();
-  if (times.limit_speeds() || times.motion().linear_inertia.is_limited) {
-    append_pieces(trajectory, times.pieces(way), to, continues);
-  } else if (continues) {
-    trajectory.moves.back().path.to = way.to;
-    trajectory.moves.back().t_end = to.arrival;
-  } else {
-    append(trajectory, {way, to.departure, to.arrival}, std::nullopt, to.reverse);
-  }
-}
+Trajectory Goals::trajectory_to(LabelId end) const { return PathToTrajectory(*this, space_, state_).to(end); }
 
 }  // namespace fleetplan::core

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "core/model/trajectory.h"
@@ -44,9 +45,9 @@ struct ServiceStop {
   double heading;  // in which the robot leaves
 };
 
-/// Estimates when a robot ends its last service if it is alone on the static map; seconds. 0 if `stop` is met
-/// first.
-double estimated_end(SearchSpace& space, const StopCondition& stop);
+/// Estimates when a robot ends its last service if it is alone on the static map; seconds. None if `stop` is
+/// met first.
+std::optional<double> estimated_end(SearchSpace& space, const StopCondition& stop);
 
 /// What the search for one robot has to reach: the goals in their order, served, and in the end a rest for
 /// good; at the last goal or, with a horizon, wherever the robot may stay from then on.
@@ -96,17 +97,6 @@ class Goals {
  private:
   /// Whether a place touches the goal of its stage.
   bool touches_goal(const Place& place) const;
-  void append_move(Trajectory& trajectory, const Label& from, const Label& to) const;
-  void append_service(Trajectory& trajectory, const Label& from, const Label& to) const;
-  /// Ends a trajectory from the first of these labels at rest in the last one, beyond the horizon.
-  void stop_at_rest(Trajectory& trajectory, const Label& first, const Label& last) const;
-  /// Estimate: seconds from rest in this label to the end of the last service, without waiting for any
-  /// `not_before`.
-  double time_left(const Label& label) const;
-  /// Estimates of the end of the last service, and of the visits that are left, for a robot that rests in
-  /// this label until `t`.
-  double estimated_end(const Label& label, double t) const;
-  std::vector<Visit> estimated_visits(const Label& label, double t) const;
 
   SearchSpace& space_;
   const double horizon_;

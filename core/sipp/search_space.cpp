@@ -65,7 +65,7 @@ void SearchSpace::find_equal_goals() {
   std::map<Kind, std::size_t> first;
   for (std::size_t k = 0; k < goal_count(); ++k) {
     first_equal_.push_back(
-        first.emplace(Kind(first_vertex(k) + goal(k).vertex, goal(k).heading), k).first->second);
+        first.emplace(Kind(first_vertex(k) + goal_pose(k).vertex, goal_pose(k).heading), k).first->second);
   }
 }
 

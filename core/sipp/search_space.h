@@ -34,7 +34,22 @@ class SearchSpace {
 
   bool finished() const { return views_.back().vertices->finished(); }
 
-  const Itinerary& itinerary() const { return itinerary_; }
+  /// The plan goes on from here, after the committed actions; seconds.
+  double t_begin() const { return itinerary_.t_begin; }
+  /// The motion of the robot until then.
+  const Trajectory& committed() const { return itinerary_.committed; }
+  /// The heading of the robot then.
+  double heading_at_start() const { return itinerary_.pose.theta; }
+  /// The first move needs no rotation, whatever that heading is.
+  bool any_heading_at_start() const { return any_heading_at_start_; }
+  /// Whether the committed actions end at rest in the pose of the first goal. Then that rest begins at
+  /// arrived(), and service_done() of the service is done; seconds. It counts until the robot leaves.
+  bool begins_in_goal_pose() const { return begins_in_goal_pose_; }
+  double arrived() const { return itinerary_.arrived; }
+  double service_done() const { return itinerary_.service_done; }
+  /// Whether the robot need not move for any of its goals.
+  bool all_goals_at_start() const { return goals_at_start_ == goal_count(); }
+
   /// In its first stage: on the way to the first goal that is left.
   const Vertices& vertices() const { return *views_.front().vertices; }
   /// In a stage: the robot has one view for each of its loads.
@@ -43,9 +58,14 @@ class SearchSpace {
   int first_vertex(std::size_t stage) const { return view(stage).first_vertex; }
   /// Vertices of all views.
   int vertex_count() const { return views_.back().first_vertex + views_.back().vertices->count(); }
+
+  /// The goals that are left.
   std::size_t goal_count() const { return itinerary_.goals.size(); }
-  /// The pose of the goal at the end of a stage.
-  const Vertices::GoalPose& goal(std::size_t stage) const { return vertices(stage).goals()[stage]; }
+  /// The goal at the end of a stage, and its pose.
+  const Goal& goal(std::size_t stage) const { return itinerary_.goals[stage]; }
+  const Vertices::GoalPose& goal_pose(std::size_t stage) const { return vertices(stage).goals()[stage]; }
+  /// The number of this goal among all goals of the robot, see Visit.
+  std::size_t number_of_goal(std::size_t stage) const { return itinerary_.first_goal + stage; }
   /// Where a stage begins: the start, or the goal before.
   int begin_of(std::size_t stage) const {
     return stage == 0 ? vertices().start() : vertices(stage).goals()[stage - 1].vertex;
@@ -62,12 +82,6 @@ class SearchSpace {
   Footprint footprint(std::size_t stage) const {
     return {robot_, (*stages_)[stage].load.radius, stage > goals_at_start_};
   }
-  /// Whether the robot need not move for any of its goals.
-  bool all_goals_at_start() const { return goals_at_start_ == goal_count(); }
-  /// The first move needs no rotation.
-  bool any_heading_at_start() const { return any_heading_at_start_; }
-  /// The committed actions end at rest in the pose of the first goal.
-  bool begins_in_goal_pose() const { return begins_in_goal_pose_; }
 
   /// To the goal with this index in Vertices::goals(), created on first use. Equal goals share theirs.
   CostToGo& cost_to_go(std::size_t goal);

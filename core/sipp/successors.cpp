@@ -64,7 +64,7 @@ PlaceId Successors::place_of(int vertex, int stage) {
 /// No earlier than straight from the start at the greatest speed, seconds.
 double Successors::earliest_arrival(const Position& position) const {
   const double distance = (position - vertices_.position(vertices_.start())).norm();
-  return space_.itinerary().t_begin + distance / fastest_;
+  return space_.t_begin() + distance / fastest_;
 }
 
 /// The safe intervals of a vertex are the same in all stages with the same load.

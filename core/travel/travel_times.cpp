@@ -66,7 +66,7 @@ class Travels {
  private:
   std::optional<Travel> way(SearchSpace& space, const StopCondition& stop) {
     const Vertices& vertices = space.vertices();
-    const double heading = space.itinerary().pose.theta;
+    const double heading = space.heading_at_start();
     const Vertices::GoalPose& goal = vertices.goals().front();
     if (vertices.start() == goal.vertex) {
       if (!goal.heading || space.any_heading_at_start()) return Travel{0.0, 0.0};
