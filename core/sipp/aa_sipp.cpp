@@ -284,12 +284,16 @@ void Search::label_start() {
 /// Offers all successors of a label.
 void Search::expand(LabelId id) {
   ++expansions_;
-  const bool is_all = successors_.visit_services(id, [&](const OpenEntry& service) {
+  const Successors::Services services = successors_.services_from(id);
+  for (const OpenEntry& service : services.entries) {
     const Edge& edge = state_.edges[service.edge];
     push_timed(service, evaluate(edge.target, service.interval, service.arrival, edge.local.heading).f);
-  });
-  if (is_all) return;
-  successors_.visit_edges(id, [&](EdgeId edge, int interval) { offer_from(edge, interval); });
+  }
+  if (services.suffice) return;
+  const auto [first, end] = successors_.add_edges(id);
+  for (int edge = first; edge < end; ++edge) {
+    offer_from(EdgeId{edge}, state_.edges[EdgeId{edge}].first_interval);
+  }
 }
 
 /// Offers the move into the first safe interval of the edge's target, from `interval` on, that the shortcut

@@ -96,8 +96,8 @@ struct SearchResult {
 ///       if label is at the last goal in its last safe interval: stop       Goals::is_end
 ///       with a horizon: remember it if the robot may rest there for good   Goals::may_rest_at
 ///       expand label:
-///         if it is at the goal of its stage: push its service              Successors::visit_services
-///         for each edge to the goal in sight or to a neighbour:            Successors::visit_edges
+///         if it is at the goal of its stage: push its service              Successors::services_from
+///         for each edge to the goal in sight or to a neighbour:            Successors::add_edges
 ///           offer it into the first safe interval that it can reach        ["Handling rotations"]
 ///     offer: push an entry with the lower bound of g, unless it is impossible, too expensive or dominated
 ///

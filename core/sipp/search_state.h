@@ -92,6 +92,7 @@ struct Edge {
   LabelId via = LabelId::none;  // the label that is expanded
   PlaceId target = PlaceId::none;
   Sight shortcut_sight = Sight::blocked;  // blocked if there is no shortcut
+  int first_interval = 0;                 // of the target, into which it may lead
 
   const Move& move(MoveKind kind) const { return kind == MoveKind::shortcut ? shortcut : local; }
 };

@@ -1,7 +1,9 @@
 #include "core/sipp/successors.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "core/geometry/tolerance.h"
 #include "core/model/drive_zones.h"
 
 namespace fleetplan::core {
@@ -115,6 +117,52 @@ void Successors::append_windows(const Place& place) {
   }
 }
 
+Successors::Services Successors::services_from(LabelId from) {
+  const Place& here = state_.place_at(from);
+  if (here.stage == goals_.last_stage() || here.vertex != goals_.stage(here.stage).goal.vertex) return {};
+  const Place place = here;
+  const Label label = state_.labels[from];
+  const ServiceStop stop = goals_.service_stop(label);
+  const double t_end = std::max(stop.t_end, label.arrival);
+  const double safe_until = state_.intervals[label.interval].end;
+  if (t_end > safe_until) return {};
+  if (changes_load_) {
+    Services services{services_with_other_load(from, stop)};
+    services.suffice = !services.entries.empty() && (safe_until == kForever || place.is_window);
+    return services;
+  }
+  // The intervals of the place are the same in every stage.
+  const PlaceId next = place_of(place.vertex, place.stage + 1);
+  const int interval = state_.places[next].first_interval + label.interval - place.first_interval;
+  const EdgeId edge = add_service(from, next, stop.heading);
+  return {{{t_end, stop.t_rest, edge, interval, ArrivalId::none, MoveKind::service, false}},
+          safe_until == kForever || (t_end == label.arrival && stop.heading == label.heading)};
+}
+
+/// With another load in the next stage, other intervals may be safe there: those that contain the end of the
+/// service.
+std::vector<OpenEntry> Successors::services_with_other_load(LabelId from, const ServiceStop& stop) {
+  constexpr double kRoundingOfTimes = 1e-9;  // seconds; more than the rounding of times
+  const Label label = state_.labels[from];
+  const int stage = state_.place_at(from).stage + 1;
+  const Stage& next_stage = goals_.stage(stage);
+  const int vertex = next_stage.is_rest
+                         ? next_stage.goal.vertex
+                         : next_stage.vertices->goals()[static_cast<std::size_t>(stage - 1)].vertex;
+  const PlaceId next = place_of(vertex, stage);
+  const double t_end = std::max(stop.t_end, label.arrival);
+  const EdgeId edge = add_service(from, next, stop.heading);
+  std::vector<OpenEntry> services;
+  for (int k = state_.places[next].first_interval; k < state_.places[next].end_interval; ++k) {
+    const SafeInterval safe = state_.intervals[k];
+    const bool contains = safe.begin <= stop.t_end + kRoundingOfTimes && t_end <= safe.end;
+    if (!contains || (next_stage.is_rest && safe.end != kForever)) continue;
+    services.push_back(
+        {std::max(t_end, safe.begin), stop.t_rest, edge, k, ArrivalId::none, MoveKind::service, false});
+  }
+  return services;
+}
+
 /// The robot rests, in this heading, until the service ends.
 EdgeId Successors::add_service(LabelId from, PlaceId next, double heading) {
   Move at_rest;
@@ -122,7 +170,53 @@ EdgeId Successors::add_service(LabelId from, PlaceId next, double heading) {
   return state_.edges.push_back({at_rest, {}, from, next, Edge::Sight::blocked});
 }
 
-EdgeId Successors::add_edge(LabelId via, PlaceId target, bool with_shortcut, bool reverse) {
+Successors::EdgeRange Successors::add_edges(LabelId from) {
+  const auto first = static_cast<int>(state_.edges.size());
+  const Label& label = state_.labels[from];
+  const int vertex = state_.places[label.place].vertex;
+  const int stage = state_.places[label.place].stage;
+  const int before = label.by_translation ? state_.place_at(label.parent).vertex : -1;
+  const Vertices& view = vertices(stage);
+  if (view.any_angle()) add_edge_to_goal(from);
+  view.for_each_neighbour(vertex, [&](int neighbour) {
+    if (!view.allow(vertex, neighbour)) return;
+    const PlaceId target = place_of(neighbour, stage);
+    if (state_.places[target].never_safe()) return;
+    // With inertia, a stop in a straight line costs time, on any lattice.
+    const bool has_shortcuts = view.any_angle() || motion_.linear_inertia.is_limited;
+    const bool with_shortcut = has_shortcuts && before >= 0 && neighbour != before;
+    add_edges_to(from, target, state_.places[target].first_interval, with_shortcut);
+  });
+  return {first, static_cast<int>(state_.edges.size())};
+}
+
+/// If the goal of the stage is in sight, the straight move there; to the last goal only into the interval in
+/// which the robot may stay.
+void Successors::add_edge_to_goal(LabelId from) {
+  const PlaceId here = state_.labels[from].place;
+  const int stage = state_.places[here].stage;
+  if (here == goals_.last() || !state_.places[here].estimate.straight) return;
+  // A long move beyond the horizon would be in the way of others that rest there.
+  if (state_.labels[from].arrival + state_.places[here].estimate.seconds > goals_.horizon()) return;
+  const PlaceId target = stage == goals_.last_stage() ? goals_.last() : goal_of(stage);
+  const Place& goal = state_.places[target];
+  if (stage != goals_.last_stage()) {
+    add_edges_to(from, target, goal.first_interval, false);
+  } else if (!goal.never_safe()) {
+    add_edges_to(from, target, goal.end_interval - 1, false);
+  }
+}
+
+/// Forwards and, for a robot that may reverse, backwards. A shortcut replaces two moves forwards, or two
+/// backwards.
+void Successors::add_edges_to(LabelId from, PlaceId target, int interval, bool with_shortcut) {
+  const bool reversed = state_.labels[from].reverse;
+  add_edge(from, target, interval, with_shortcut && !reversed, false);
+  if (motion_.may_reverse) add_edge(from, target, interval, with_shortcut && reversed, true);
+}
+
+/// `interval`: the first one of the target into which the edge may lead.
+void Successors::add_edge(LabelId via, PlaceId target, int interval, bool with_shortcut, bool reverse) {
   const Move local = move_between(via, target, reverse);
   Move shortcut = with_shortcut ? move_between(state_.labels[via].parent, target, reverse) : Move{};
   // Past a slow zone, the way round may be the faster one.
@@ -133,8 +227,8 @@ EdgeId Successors::add_edge(LabelId via, PlaceId target, bool with_shortcut, boo
     with_shortcut = angle_between(shortcut.heading, local.heading) <= kSameHeading;
   }
   if (!with_shortcut) shortcut = Move{};
-  return state_.edges.push_back(
-      {local, shortcut, via, target, with_shortcut ? Edge::Sight::unknown : Edge::Sight::blocked});
+  state_.edges.push_back(
+      {local, shortcut, via, target, with_shortcut ? Edge::Sight::unknown : Edge::Sight::blocked, interval});
 }
 
 /// The rotation, the added wait and the translation from a label (paper, "Handling rotations").
