@@ -38,8 +38,8 @@ Corner convex_corner(const OccupancyGrid& grid, int x, int line) {
 }
 
 /// Calls visit(index) for each byte of this value.
-template <class Visit>
-void for_each_equal(const std::vector<std::uint8_t>& bytes, int value, Visit&& visit) {
+template <class Visitor>
+void for_each_equal(const std::vector<std::uint8_t>& bytes, int value, Visitor&& visit) {
   const std::uint8_t* const first = bytes.data();
   const std::uint8_t* const last = first + bytes.size();
   const std::uint8_t* at = first;

@@ -59,8 +59,8 @@ class FixedReservations {
   /// touch this robot's disk of the given radius (metres) at times that differ by at most `margin` seconds. A
   /// part may be visited more than once. Stops when visit returns false; returns false then, and true
   /// otherwise.
-  template <class Visit>
-  bool visit(std::size_t robot, const MovingDisk& mine, double radius, double margin, Visit&& visit) const {
+  template <class Visitor>
+  bool visit(std::size_t robot, const MovingDisk& mine, double radius, double margin, Visitor&& visit) const {
     return tree_.visit(mine, radius, margin, [&](std::size_t index) {
       const Occupant other = occupant(index);
       return (!other.is_obstacle && other.robot == robot) || visit(other);

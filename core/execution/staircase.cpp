@@ -154,8 +154,8 @@ class RegionOrder {
   }
 
   /// Calls visit(region) for the regions whose key is greater than `value`, until it returns false.
-  template <class Visit>
-  void for_each(double value, Visit&& visit) const {
+  template <class Visitor>
+  void for_each(double value, Visitor&& visit) const {
     for (std::size_t k = keys_.from(0, value); k < order_.size(); k = keys_.from(k + 1, value)) {
       if (!visit(*order_[k])) return;
     }

@@ -24,8 +24,8 @@ class BucketGrid {
 
   /// Calls visit(bucket, enter, exit) for the buckets that the segment crosses, in order; enter and exit are
   /// fractions of its length. Stops when visit returns false; returns false then, and true otherwise.
-  template <class Visit>
-  bool walk(const Position& from, const Position& to, Visit&& visit) const {
+  template <class Visitor>
+  bool walk(const Position& from, const Position& to, Visitor&& visit) const {
     int column = column_of(from.x());
     int row = row_of(from.y());
     const int last_column = column_of(to.x());
@@ -52,8 +52,8 @@ class BucketGrid {
 
   /// Calls visit(bucket, t_begin, t_end) for every bucket that the disk's centre comes within `reach` of,
   /// with a time window that contains all such times. `reach` is exceeded by up to half a bucket's diagonal.
-  template <class Visit>
-  void cover(const MovingDisk& disk, double reach, Visit&& visit) const {
+  template <class Visitor>
+  void cover(const MovingDisk& disk, double reach, Visitor&& visit) const {
     // The bucket's circumscribed circle, rounded up; times are those of the mean speed.
     const double margin = reach + disk.sag() + 0.7072 * size_;
     const double speed = disk.velocity.norm();

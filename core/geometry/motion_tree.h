@@ -55,8 +55,8 @@ class MotionTree {
   /// Calls visit(index) for every disk that could come within `reach`, in addition to its radius, of the
   /// centre of `mine` at times that differ by at most `margin` seconds. A disk may be visited more than once.
   /// Stops when visit returns false; returns false then, and true otherwise.
-  template <class Visit>
-  bool visit(const MovingDisk& mine, double reach, double margin, Visit&& visit) const {
+  template <class Visitor>
+  bool visit(const MovingDisk& mine, double reach, double margin, Visitor&& visit) const {
     if (leaves_.empty()) return true;
     return descend(levels_.size() - 1, 0, Query{mine, reach + mine.sag(), margin}, visit);
   }
@@ -101,8 +101,8 @@ class MotionTree {
   MotionBox box(const Piece& piece) const;
   bool build(const std::vector<Piece>& pieces, const StopCondition& stop);
 
-  template <class Visit>
-  bool descend(std::size_t level, std::size_t index, const Query& query, Visit& visit) const {
+  template <class Visitor>
+  bool descend(std::size_t level, std::size_t index, const Query& query, Visitor& visit) const {
     if (!query.touches(levels_[level][index])) return true;
     const std::size_t begin = index * kFanOut;
     const std::size_t end =

@@ -143,8 +143,8 @@ BlockedPolygons::BlockedPolygons(std::vector<Polygon> polygons, double width, do
   }
 }
 
-template <class Visit>
-void BlockedPolygons::for_each_square(const Polygon& polygon, const Visit& visit) const {
+template <class Visitor>
+void BlockedPolygons::for_each_square(const Polygon& polygon, const Visitor& visit) const {
   const Squares box = squares(polygon.low(), polygon.high());
   // Bounded: all squares, kSide * kSide.
   for (int row = box.first_row; row <= box.last_row; ++row) {

@@ -71,8 +71,8 @@ class BlockedPolygons {
     int first_column, last_column, first_row, last_row;
   };
   Squares squares(const Position& low, const Position& high) const;
-  template <class Visit>
-  void for_each_square(const Polygon& polygon, const Visit& visit) const;
+  template <class Visitor>
+  void for_each_square(const Polygon& polygon, const Visitor& visit) const;
 
   std::vector<Polygon> polygons_;
   Position squares_per_metre_{0.0, 0.0};

@@ -118,8 +118,8 @@ class FineRegions {
 
   /// Calls visit(touch) for all places where regions touch, until the stop condition is met. Does not test
   /// whether the step between them is free.
-  template <class Visit>
-  void for_each_touch(StopStride& stop, Visit&& visit) const;
+  template <class Visitor>
+  void for_each_touch(StopStride& stop, Visitor&& visit) const;
 
   /// Returns the nodes on the way from a node to its vertex, both included.
   std::vector<Position> way_from(Cell here) const;
@@ -187,8 +187,8 @@ class FineRegions {
   std::vector<Position> added_;
 };
 
-template <class Visit>
-void FineRegions::for_each_touch(StopStride& stop, Visit&& visit) const {
+template <class Visitor>
+void FineRegions::for_each_touch(StopStride& stop, Visitor&& visit) const {
   for (const Cell& begin : begin_of_block_) {
     for (int row = begin.row; row < std::min(begin.row + side_, nodes_.rows()); ++row) {
       if (stop.met_at_step()) return;

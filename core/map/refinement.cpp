@@ -113,8 +113,8 @@ class Refinement {
                ? lattice_.position(vertex)
                : added_[static_cast<std::size_t>(vertex - lattice_.vertex_count())];
   }
-  template <class Visit>
-  void for_each_neighbour(int vertex, const Visit& visit);
+  template <class Visitor>
+  void for_each_neighbour(int vertex, const Visitor& visit);
 
   const FineNodes& nodes_;
   const FineRegions& regions_;
@@ -171,8 +171,8 @@ bool Refinement::is_one_move(int from, int to) {
   return false;
 }
 
-template <class Visit>
-void Refinement::for_each_neighbour(int vertex, const Visit& visit) {
+template <class Visitor>
+void Refinement::for_each_neighbour(int vertex, const Visitor& visit) {
   if (vertex < lattice_.vertex_count()) {
     std::uint32_t mask = space_.steps_from(vertex);
     for (std::size_t k = 0; mask != 0; ++k, mask >>= 1) {

@@ -47,8 +47,8 @@ class SegmentIndex {
 
   /// Calls visit(occupant) for every occupant that could touch `robot` in this bucket of the grid within the
   /// open time window. Stops when visit returns false; returns false then, and true otherwise.
-  template <class Visit>
-  bool visit(std::size_t robot, std::size_t bucket, double t_begin, double t_end, Visit&& visit) const {
+  template <class Visitor>
+  bool visit(std::size_t robot, std::size_t bucket, double t_begin, double t_end, Visitor&& visit) const {
     return visit_bucket(classes_[class_of_[robot]].buckets[bucket], t_begin, t_end, visit);
   }
 
@@ -76,8 +76,8 @@ class SegmentIndex {
   DiskId store(std::size_t robot, const SizedSegment& segment, bool has_left);
   void enter(RadiusClass& radius_class, DiskId id);
 
-  template <class Visit>
-  bool visit_bucket(const Bucket& bucket, double t_begin, double t_end, Visit& visit) const {
+  template <class Visitor>
+  bool visit_bucket(const Bucket& bucket, double t_begin, double t_end, Visitor& visit) const {
     const auto pass = [&](const Occupant& occupant) { return ignored_[occupant.robot] || visit(occupant); };
     for (const DiskId id : bucket.resting) {
       if (occupants_[id].disk.t_start < t_end && !pass(occupants_[id])) return false;

@@ -102,8 +102,8 @@ class OwnVertices {
   /// The neighbours of an own vertex, ascending.
   const std::vector<int>& links(int vertex) const { return at(vertex).links; }
   /// Calls visit(own) for the own vertices that are neighbours of a vertex of the lattice.
-  template <class Visit>
-  void for_each_link_from(int vertex, Visit&& visit) const {
+  template <class Visitor>
+  void for_each_link_from(int vertex, Visitor&& visit) const {
     for (std::size_t k = 0; k < own_.size(); ++k) {
       if (is_linked(own_[k], vertex)) visit(first_ + static_cast<int>(k));
     }
@@ -220,8 +220,8 @@ class Vertices {
   bool in_sight(int from, int to) const { return is_free(from, to) && allow(from, to); }
 
   /// Calls visit(vertex) for every neighbour that one lattice move or link reaches from `vertex`.
-  template <class Visit>
-  void for_each_neighbour(int vertex, Visit&& visit) const {
+  template <class Visitor>
+  void for_each_neighbour(int vertex, Visitor&& visit) const {
     if (own_.contains(vertex)) {
       for (const int link : own_.links(vertex)) visit(link);
       return;
