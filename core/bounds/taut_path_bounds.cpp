@@ -202,7 +202,7 @@ Motion without_turns_if_reversing(Motion motion) {
 }
 
 bool is_straight(const Instance& instance, const GoalLeg& leg, double radius) {
-  return instance.sight().may_sweep(leg.from, leg.to.position, radius);
+  return instance.sight_past_walls().may_sweep(leg.from, leg.to.position, radius);
 }
 
 /// Whether all vertices of the lattice are centres of cells.
@@ -278,7 +278,7 @@ void TautPathBounds::improve(const Instance& instance, const LegsByRadius& out_o
     // Of all lattices or, if the options ask for one spacing, of the only one.
     const bool at_centers =
         stops_at_cell_centers(instance.lattice(group.front().robot), instance.problem().grid());
-    TautPathSearch search(corners, instance.sight(), radius, at_centers);
+    TautPathSearch search(corners, instance.sight_past_walls(), radius, at_centers);
     work -= corners.count();  // the memory that the search allocates counts as work
     for (const LegIndex& index : group) {
       if (corners.stopped() || stop.met()) {

@@ -60,7 +60,7 @@ std::vector<Endpoints> endpoints(const Instance& instance) {
     const Robot& robot = instance.robot(i);
     const Lattice& lattice = instance.lattice(i);
     const auto rounding = [&](const Position& p) { return (lattice.snapped(p) - p).norm(); };
-    const StageLoad& first = instance.stages(i)[0];
+    const LoadedRobot& first = instance.stages(i)[0];
     Endpoints ends;
     ends.pair_radius = first.motion.pair_radius;
     ends.inflation = inflation + robot.vicinity;

@@ -52,9 +52,10 @@ class Instance {
   const Itinerary& itinerary(std::size_t index) const { return itineraries_[index]; }
   /// The lattice that the robot is planned on.
   const Lattice& lattice(std::size_t index) const { return *lattices_[index]; }
-  /// The line of sight past walls alone, and the one past the zones that are blocked for a robot, too.
-  const LineOfSight& sight() const { return problem_.map()->sight(); }
+  /// The line of sight of a robot: past walls and the zones that are blocked for it.
   const LineOfSight& sight(std::size_t index) const { return problem_.map_of(index)->sight(); }
+  /// The one past walls alone.
+  const LineOfSight& sight_past_walls() const { return problem_.map()->sight(); }
   /// The pairs of robots that begin or end too near to each other.
   const Contacts& contacts() const { return contacts_; }
   /// Obstacles and committed motion; never null. Instances for other threads may share them.

@@ -26,7 +26,7 @@ class StageMaker {
   }
 
  private:
-  std::vector<StageLoad> loads(std::size_t index, std::size_t first_goal, const Lattice& lattice) {
+  std::vector<LoadedRobot> loads(std::size_t index, std::size_t first_goal, const Lattice& lattice) {
     const Robot& robot = problem_.robots()[index];
     std::optional<DriveZones> zones;  // with the first load
     if (any_drive_zone_) zones.emplace(problem_.zones(), index, robot);
@@ -34,8 +34,8 @@ class StageMaker {
     const std::vector<Load> loads = loads_of(robot);
     const auto first = loads.begin() + static_cast<std::ptrdiff_t>(first_goal);
     const bool is_one = std::all_of(first, loads.end(), [&](const Load& load) { return load == *first; });
-    std::map<Load, StageLoad> known;
-    std::vector<StageLoad> stages;
+    std::map<Load, LoadedRobot> known;
+    std::vector<LoadedRobot> stages;
     for (auto load = first; load != (is_one ? first + 1 : loads.end()); ++load) {
       const auto [stage, is_new] = known.try_emplace(*load);
       if (is_new) stage->second = with_load(index, *load, zones, lattice);
@@ -44,10 +44,10 @@ class StageMaker {
     return stages;
   }
 
-  StageLoad with_load(std::size_t index, const Load& load, const std::optional<DriveZones>& zones,
-                      const Lattice& lattice) {
+  LoadedRobot with_load(std::size_t index, const Load& load, const std::optional<DriveZones>& zones,
+                        const Lattice& lattice) {
     const Motion motion = motion_of(problem_.robots()[index], options_, load);
-    StageLoad stage{load, motion, free_space(lattice, *problem_.map_of(index), motion.radius), nullptr};
+    LoadedRobot stage{load, motion, free_space(lattice, *problem_.map_of(index), motion.radius), nullptr};
     if (!zones) return stage;
     auto loaded = std::make_shared<const DriveZones>(zones->with(load));
     if (!loaded->empty()) stage.zones = std::move(loaded);
@@ -77,13 +77,13 @@ class StageMaker {
 const Motion& RobotStages::slimmest_motion() const {
   return std::min_element(
              loads_.begin(), loads_.end(),
-             [](const StageLoad& a, const StageLoad& b) { return a.motion.radius < b.motion.radius; })
+             [](const LoadedRobot& a, const LoadedRobot& b) { return a.motion.radius < b.motion.radius; })
       ->motion;
 }
 
 double RobotStages::longest_plan() const {
   double slowest = loads_.front().motion.linear_speed;
-  for (const StageLoad& stage : loads_) slowest = std::min(slowest, stage.motion.linear_speed);
+  for (const LoadedRobot& stage : loads_) slowest = std::min(slowest, stage.motion.linear_speed);
   return std::min(kLongestPlan, kLongestTravel / slowest);
 }
 

@@ -20,7 +20,7 @@
 namespace fleetplan::core {
 
 /// A robot with one of its loads.
-struct StageLoad {
+struct LoadedRobot {
   Load load;
   Motion motion;
   std::shared_ptr<FreeSpace> free_space;    // never null; of all robots for which it is the same
@@ -32,12 +32,12 @@ struct StageLoad {
 class RobotStages {
  public:
   /// `loads`: one for each stage, or a single one for all. `largest_disk`: at any time, commitments included.
-  RobotStages(std::vector<StageLoad> loads, const LargestDisk& largest_disk)
+  RobotStages(std::vector<LoadedRobot> loads, const LargestDisk& largest_disk)
       : loads_(std::move(loads)), largest_disk_(largest_disk) {}
 
   /// Whether the robot has several loads in these stages.
   bool changes_load() const { return loads_.size() > 1; }
-  const StageLoad& operator[](std::size_t stage) const { return loads_[changes_load() ? stage : 0]; }
+  const LoadedRobot& operator[](std::size_t stage) const { return loads_[changes_load() ? stage : 0]; }
 
   const LargestDisk& largest_disk() const { return largest_disk_; }
   /// The motion with the smallest radius.
@@ -46,7 +46,7 @@ class RobotStages {
   double longest_plan() const;
 
  private:
-  std::vector<StageLoad> loads_;
+  std::vector<LoadedRobot> loads_;
   LargestDisk largest_disk_;
 };
 

@@ -67,7 +67,7 @@ double Enclosure::required_clearance() const {
   double clearance = instance_.stages(robot_).slimmest_motion().radius;
   const Position& start = instance_.itinerary(robot_).pose.position;
   for (const Position& position : {start, robot.goal->position}) {
-    if (instance_.sight().disk_fits(position, clearance)) continue;
+    if (instance_.sight_past_walls().disk_fits(position, clearance)) continue;
     clearance = std::min(clearance, obstacle_distance(grid_, position, clearance));
   }
   return clearance - kSlack;
@@ -152,7 +152,7 @@ void Enclosure::expand(Flood& flood, std::size_t side) {
   constexpr std::array<Neighbour, 4> kNeighbours{{{1, 0, 1, 0}, {-1, 0, 0, 0}, {0, 1, 0, 1}, {0, -1, 0, 0}}};
   const double half = 0.5 * grid_.resolution();
   const bool is_open =
-      disks_.empty() && instance_.sight().surely_free(grid_.center(cell), clearance_) >= half;
+      disks_.empty() && instance_.sight_past_walls().surely_free(grid_.center(cell), clearance_) >= half;
   for (const Neighbour& step : kNeighbours) {
     const Cell next{cell.column + step.columns, cell.row + step.rows};
     if (!grid_.inside(next)) continue;
@@ -183,8 +183,8 @@ bool Enclosure::crossable(const Border& border, Flood& flood, std::size_t side) 
                                              Position(border.vertical ? 0.0 : 1.0,  //
                                                       border.vertical ? 1.0 : 0.0);
   const std::vector<Disk*> disks = disks_near(border);
-  if (disks.empty() && instance_.sight().disk_fits(middle, clearance_)) return true;
-  if (instance_.sight().surely_blocked(middle, clearance_) >= 0.5 * length) {
+  if (disks.empty() && instance_.sight_past_walls().disk_fits(middle, clearance_)) return true;
+  if (instance_.sight_past_walls().surely_blocked(middle, clearance_) >= 0.5 * length) {
     cells_near(border);
     return false;
   }

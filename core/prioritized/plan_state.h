@@ -41,10 +41,11 @@ class PlanState {
   /// The trajectory of the robot alone on the map; it stays in its place if there is none.
   Trajectory plan_alone(std::size_t robot, const StopCondition& stop);
 
-  /// With a horizon, this robot is planned beyond it, to its goals, past all robots that have arrived and are
-  /// not planned yet: no later than by its previous plan if possible. Meanwhile, those robots stay in their
-  /// places. When a search finds no such way, it searches up to the horizon, as do all later ones.
-  void plan_whole_way_of(std::size_t robot) { whole_way_of_ = robot; }
+  /// With a horizon, this robot is planned beyond it from now on, to its goals, past all robots that have
+  /// arrived and are not planned yet: no later than by its previous plan if possible. Meanwhile, those robots
+  /// stay in their places. When a search finds no such way, it searches up to the horizon, as do all later
+  /// ones.
+  void set_whole_way_of(std::size_t robot) { whole_way_of_ = robot; }
   /// None as well if it has no such way.
   const std::optional<std::size_t>& whole_way_of() const { return whole_way_of_; }
 

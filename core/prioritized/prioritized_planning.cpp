@@ -69,7 +69,7 @@ class PrioritizedPlanning {
         stop_(time.first_part) {
     const bool may_stop = state.instance().options().horizon && !order_.empty();
     if (may_stop && state.instance().robot(order_.front()).goal_age > 0.0) {
-      state.plan_whole_way_of(order_.front());
+      state.set_whole_way_of(order_.front());
     }
   }
 

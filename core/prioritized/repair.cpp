@@ -278,7 +278,7 @@ class Repair {
     std::vector<std::pair<std::size_t, Trajectory>> before;
     for (const std::size_t other : others) {
       if (!reservations_.trajectory(other) || state_.instance().robot(other).is_idle()) continue;
-      SearchResult leaving = plan_leaving_for(state_, robot, other, quick_search_of(other), stop_);
+      SearchResult leaving = plan_making_way(state_, other, robot, quick_search_of(other), stop_);
       if (!leaving.trajectory) continue;
       before.emplace_back(other, *reservations_.trajectory(other));
       reservations_.follow(other, std::move(*leaving.trajectory));

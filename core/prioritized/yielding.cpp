@@ -45,8 +45,8 @@ SearchResult plan_past_yielding(PlanState& state, std::size_t robot, const Searc
   return result;
 }
 
-SearchResult plan_leaving_for(PlanState& state, std::size_t other, std::size_t robot,
-                              const SearchLimits& limits, const StopCondition& stop) {
+SearchResult plan_making_way(PlanState& state, std::size_t robot, std::size_t other,
+                             const SearchLimits& limits, const StopCondition& stop) {
   FleetReservations& reservations = state.reservations();
   const Trajectory followed = *reservations.trajectory(robot);
   const std::vector<Goal>& goals = state.instance().itinerary(other).goals;

@@ -18,11 +18,11 @@ bool any_yields(const Instance& instance);
 SearchResult plan_past_yielding(PlanState& state, std::size_t robot, const SearchLimits& limits,
                                 const StopCondition& stop);
 
-/// Plans a robot that yields and has a trajectory anew, so that it does not end in the place of a goal of
-/// `other`, which has no reservation: of the goal that is nearest to where it ends now. Afterwards all
+/// Plans a robot that yields and has a trajectory anew, so that it makes way for `other`, which has no
+/// reservation: it does not end at the goal of `other` that is nearest to where it ends now. Afterwards all
 /// reservations are as they were.
-SearchResult plan_leaving_for(PlanState& state, std::size_t other, std::size_t robot,
-                              const SearchLimits& limits, const StopCondition& stop);
+SearchResult plan_making_way(PlanState& state, std::size_t robot, std::size_t other,
+                             const SearchLimits& limits, const StopCondition& stop);
 
 /// Whether a robot yields and moves after it has served its own goals.
 bool makes_way(const FleetReservations& reservations, std::size_t robot);

@@ -353,7 +353,7 @@ TEST(TautPathBounds, TakeLimitedWorkForManyRobotsOnALargeMapWithManyCorners) {
   EXPECT_FALSE(bounds.cut_off());
   CornerVisibility corners(grid, 0.3, 0.4, StopCondition::never());
   for (const std::size_t robot : {std::size_t{0}, all.back()}) {
-    TautPathSearch search(corners, instance.sight(), instance.motion(robot).radius);
+    TautPathSearch search(corners, instance.sight_past_walls(), instance.motion(robot).radius);
     const double whole = search
                              .run(legs_of(instance.itinerary(robot))[0], instance.motion(robot), kForever,
                                   1'000'000'000, StopCondition::never())
@@ -397,7 +397,7 @@ TEST(TautPathSearch, ReturnsHigherBoundsAfterMoreWork) {
   for (const std::int64_t work : {0, 400, 1200, 1000000}) {
     CornerVisibility corners(problem.grid(), instance.motion(0).radius, instance.motion(0).radius,
                              StopCondition::never());
-    TautPathSearch search(corners, instance.sight(), instance.motion(0).radius);
+    TautPathSearch search(corners, instance.sight_past_walls(), instance.motion(0).radius);
     const TautPathResult result = search.run(legs_of(instance.itinerary(0))[0], instance.motion(0), kForever,
                                              work, StopCondition::never());
     EXPECT_FALSE(result.cut_off);
@@ -418,7 +418,7 @@ TEST(TautPathSearch, NeedsLessWorkWhereAPlanIsKnown) {
   const double radius = instance.motion(0).radius;
   const auto work = [&](double at_most) {
     CornerVisibility corners(problem.grid(), radius, radius, StopCondition::never());
-    TautPathSearch search(corners, instance.sight(), radius);
+    TautPathSearch search(corners, instance.sight_past_walls(), radius);
     search.run(legs_of(instance.itinerary(0))[0], instance.motion(0), at_most, 1'000'000,
                StopCondition::never());
     return search.work();

@@ -77,7 +77,8 @@ TEST_P(AaSippConnectivity, AnyAngleCostsNoMoreThanLatticeMoves) {
     if (!on_lattice) continue;
     ++compared;
     const auto& robot = problem.robots()[0];
-    if (free.instance.sight().may_sweep(robot.start.position, robot.goal->position, robot.radius)) {
+    if (free.instance.sight_past_walls().may_sweep(robot.start.position, robot.goal->position,
+                                                   robot.radius)) {
       ASSERT_LE(at_any_angle->cost, on_lattice->cost + 1e-8);
     }
   }
