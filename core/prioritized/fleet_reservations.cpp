@@ -66,7 +66,8 @@ FleetReservations::FleetReservations(const Instance& instance, OnLeave on_leave)
              instance.problem().grid().resolution(), largest_disks(instance), contacts(instance),
              fixed_reservations(instance), instance.options().interval_margin),
       reserved_{std::vector<std::optional<Trajectory>>(instance.size()),
-                std::vector<double>(instance.size(), 0.0)} {}
+                std::vector<double>(instance.size(), 0.0)},
+      is_ignored_(instance.size(), false) {}
 
 void FleetReservations::follow(std::size_t robot, Trajectory trajectory) {
   const std::vector<SizedSegment> segments = after_commitment(robot, trajectory);
@@ -104,7 +105,7 @@ void FleetReservations::remove(std::size_t robot) {
 std::vector<std::size_t> FleetReservations::staying_robots() const {
   std::vector<std::size_t> staying;
   for (std::size_t robot = 0; robot < instance_.size(); ++robot) {
-    if (stays(robot)) staying.push_back(robot);
+    if (stays(robot) && !is_ignored_[robot]) staying.push_back(robot);
   }
   return staying;
 }

@@ -44,7 +44,7 @@ class FleetReservations {
   /// The number of robots that follow a trajectory.
   std::size_t planned_count() const { return planned_count_; }
   bool any_stays() const { return staying_count_ > 0; }
-  /// The robots that stay, ascending.
+  /// The robots that stay, ascending, without those that are ignored.
   std::vector<std::size_t> staying_robots() const;
 
   /// The reservations of all robots, to return to them.
@@ -76,7 +76,10 @@ class FleetReservations {
   // For a single search, the table may differ from what the robots do.
 
   /// Searches, and questions about conflicts, leave out the reservation of an ignored robot.
-  void ignore(std::size_t robot, bool ignored) { table_.ignore(robot, ignored); }
+  void ignore(std::size_t robot, bool ignored) {
+    table_.ignore(robot, ignored);
+    is_ignored_[robot] = ignored;
+  }
   /// Reserves only what comes before `t` (seconds) of the trajectory that the robot follows.
   void shorten(std::size_t robot, double t);
   /// Undoes shorten().
@@ -93,7 +96,8 @@ class FleetReservations {
   const OnLeave on_leave_;
   ReservationTable table_;
   Snapshot reserved_;
-  bool is_in_table_ = true;  // what reserved_ has
+  std::vector<bool> is_ignored_;  // by robot
+  bool is_in_table_ = true;       // what reserved_ has
   std::size_t planned_count_ = 0;
   std::size_t staying_count_ = 0;
 };

@@ -42,10 +42,9 @@ SearchResult PlanState::plan(std::size_t robot, const SearchLimits& limits, cons
 
 SearchResult PlanState::plan_ignoring(const std::vector<std::size_t>& ignored, std::size_t robot,
                                       const SearchLimits& limits, const StopCondition& stop) {
-  const bool all_move = std::none_of(ignored.begin(), ignored.end(),
-                                     [&](std::size_t other) { return reservations_.stays(other); });
+  ways_.forget_if_closed_by(ignored, robot);
   for (const std::size_t other : ignored) reservations_.ignore(other, true);
-  SearchResult result = all_move ? plan(robot, limits, stop) : search(robot, limits, stop);
+  SearchResult result = plan(robot, limits, stop);
   for (const std::size_t other : ignored) reservations_.ignore(other, false);
   return result;
 }

@@ -148,4 +148,10 @@ void StaticWays::forget_if_closed_by_robots(std::size_t robot) {
   if (std::erase(closed_by_robots_, robot) > 0) ways_[robot] = {};
 }
 
+void StaticWays::forget_if_closed_by(const std::vector<std::size_t>& others, std::size_t robot) {
+  const std::vector<std::size_t>& closed_by = ways_[robot].closed_by;
+  const auto found = std::find_first_of(closed_by.begin(), closed_by.end(), others.begin(), others.end());
+  if (found != closed_by.end()) forget_if_closed_by_robots(robot);
+}
+
 }  // namespace fleetplan::core

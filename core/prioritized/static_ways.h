@@ -61,6 +61,8 @@ class StaticWays {
   void forget_closed_by_robots(std::optional<std::size_t> left);
   /// Forgets the way of this robot if robots close it.
   void forget_if_closed_by_robots(std::size_t robot);
+  /// Forgets the way of this robot if some of `others` close it.
+  void forget_if_closed_by(const std::vector<std::size_t>& others, std::size_t robot);
 
  private:
   using Robots = std::vector<std::size_t>;

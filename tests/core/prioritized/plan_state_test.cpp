@@ -55,6 +55,41 @@ TEST(PlanState, NeverIgnoresCommittedMotion) {
   EXPECT_NEAR(result.trajectory->cost, 8.0 + 0.8 * std::sqrt(2.0), 1e-6) << "it lets robot 1 pass";
 }
 
+TEST(PlanState, FindsAWayPastAnIgnoredRobotThatIsKnownToCloseIt) {
+  Planning p(support::ascii_map({"....#....",  //
+                                 ".........",  //
+                                 "....#...."}),
+             {robot_at(0.5, 1.5).to(8.5, 1.5), robot_at(4.5, 1.5).to(4.5, 1.5)});
+  p.reservations.stay_in_place(1);
+  ASSERT_TRUE(p.state.ways().is_closed_off(0, 1000));
+  EXPECT_FALSE(p.state.plan(0, {}, p.never).trajectory);
+  const auto found = p.state.plan_ignoring({1}, 0, {}, p.never).trajectory;
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->cost, 8.0, 1e-12);
+  EXPECT_FALSE(p.state.plan(0, {}, p.never).trajectory);
+}
+
+/// Robot 1 closes the door of a hall, in which robot 0 has to go around a row of others that stay.
+TEST(PlanState, FindsAWholeWayPastAnIgnoredRobotThatClosesIt) {
+  OccupancyGrid grid(60, 41, 1.0);
+  for (int row = 0; row < 41; ++row) {
+    if (row != 20) grid.block({50, row});
+  }
+  std::vector<Robot> robots{robot_at(2.5, 20.5).to(58.5, 20.5), robot_at(50.5, 20.5).to(50.5, 20.5)};
+  for (int row = 0; row < 39; ++row) robots.push_back(robot_at(40.5, row + 0.5).to(40.5, row + 0.5));
+  PlanOptions options;
+  options.horizon = 5.0;
+  Planning p(std::move(grid), std::move(robots), options);
+  for (std::size_t other = 1; other < p.instance.size(); ++other) p.reservations.stay_in_place(other);
+  p.state.set_whole_way_of(0);
+  const auto found = p.state.plan_ignoring({1}, 0, {}, p.never).trajectory;
+  EXPECT_GT(p.state.expansions(), SearchLimits::kFirstTest);
+  ASSERT_TRUE(found);
+  EXPECT_GT(found->cost, 56.0) << "around the row";
+  EXPECT_EQ(found->end(), Position(58.5, 20.5));
+  EXPECT_EQ(p.state.whole_way_of(), std::size_t{0});
+}
+
 TEST(PlanState, GivesUpWhatSearchesKeepWhenMemoryIsShort) {
   constexpr std::size_t kLimit = std::size_t{64} << 20;
   MemoryAccount account(kLimit);
