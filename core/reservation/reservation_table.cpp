@@ -17,9 +17,16 @@ constexpr double kShortestSafeInterval = 1e-9;
 /// Parts of fixed motion; with more of them, queries may be costly.
 constexpr std::size_t kManyFixed = 10'000;
 
+// A query asks SegmentIndex for the reservations that come and go, and FixedReservations for obstacles and
+// committed motion. Both call a function for every moving disk (Occupant) that may come too near within a
+// window of time, until it returns false: SegmentIndex in one bucket of the map, so that a move walks the
+// buckets on its path, FixedReservations for a whole move. disk_motion.h computes when two disks are nearer
+// to each other than the distance for their pair, CollisionDistance or FixedDistance.
+
 using Occupant = SegmentIndex::Occupant;
 
-/// The distance of the centres below which a robot on a straight path, or standing, collides with others.
+/// The distance of the centres below which a robot on a straight path, or standing, collides with others. Two
+/// robots that begin or end too near to each other (Contacts) may be as near as that at these ends.
 class CollisionDistance {
  public:
   CollisionDistance(const SegmentIndex& index, const Footprint& mine, const Segment& path)
