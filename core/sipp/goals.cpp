@@ -47,7 +47,7 @@ IndexedVector<Stage> stages_of(SearchSpace& space, const StopCondition& stop) {
     const Goal& goal = space.goal(index);
     stages[k] = stage_at(space, index);
     Stage& stage = stages[k];
-    stage.goal = space.goal_pose(index);
+    stage.goal_pose = space.goal_pose(index);
     stage.service = goal.service;
     stage.not_before = goal.not_before;
     stage.after = goal.service;
@@ -57,7 +57,7 @@ IndexedVector<Stage> stages_of(SearchSpace& space, const StopCondition& stop) {
   }
   if (!space.rests_with_other_radius()) return stages;
   Stage rest = stage_at(space, space.goal_count());
-  rest.goal = rest.vertices->goals().back();
+  rest.goal_pose = rest.vertices->goals().back();
   rest.is_rest = true;
   stages.push_back(rest);
   return stages;
@@ -81,7 +81,7 @@ std::optional<double> estimated_end(SearchSpace& space, const StopCondition& sto
   set_releases(stages, 0.0);
   const Stage& first = stages[0];
   const int start = space.vertices().start();
-  const bool leaves = start != first.goal.vertex;
+  const bool leaves = start != first.goal_pose.vertex;
   const double leg = leaves ? space.cost_to_go(0).from(start, stop).least() : 0.0;
   return std::max(first.release, space.t_begin() + leg + first.after);
 }
@@ -131,10 +131,10 @@ ServiceStop Goals::service_stop(const Label& label) const {
     stop.t_rest = space_.arrived();
   } else {
     if (at_start) stop.t_rest = space_.t_begin();  // also if it has to stay there for longer
-    if (stage.goal.heading) {
-      const Position place = stage.vertices->position(stage.goal.vertex);
-      stop.t_rest += stage.vertices->times().rotation_time(place, label.heading, *stage.goal.heading);
-      stop.heading = *stage.goal.heading;
+    if (stage.goal_pose.heading) {
+      const Position place = stage.vertices->position(stage.goal_pose.vertex);
+      stop.t_rest += stage.vertices->times().rotation_time(place, label.heading, *stage.goal_pose.heading);
+      stop.heading = *stage.goal_pose.heading;
     }
   }
   stop.t_end = stage.service_end(stop.t_rest);
@@ -158,7 +158,7 @@ bool Goals::may_rest_at(const Label& label) const {
 
 bool Goals::touches_goal(const Place& place) const {
   const Stage& stage = stages_[place.stage];
-  const Position goal = stage.vertices->position(stage.goal.vertex);
+  const Position goal = stage.vertices->position(stage.goal_pose.vertex);
   return (place.position - goal).norm() <= kContactTolerance;
 }
 

@@ -18,7 +18,7 @@ namespace fleetplan::core {
 /// A part of the way of a robot: from the goal before, or from where its plan begins, to the next goal. A
 /// robot that has another radius after its last service has one more stage, in which it rests.
 struct Stage {
-  Vertices::GoalPose goal;
+  Vertices::GoalPose goal_pose;
   double service = 0.0;     // seconds
   double not_before = 0.0;  // seconds
   /// Estimate: seconds from rest in the goal's pose to the end of the last service, without waiting for any

@@ -50,13 +50,13 @@ PlaceId Successors::place_of(int vertex, int stage) {
       0,      latest};
   if (at.is_anywhere) {
     place.any_heading = true;
-  } else if (vertex != at.goal.vertex) {
+  } else if (vertex != at.goal_pose.vertex) {
     place.estimate = space_.cost_to_go(static_cast<std::size_t>(stage)).from(vertex, stop_);
     place.estimate.seconds += at.after;
     place.estimate.reverse_seconds += at.after;
   } else {
-    place.estimate = {at.after, at.goal.heading.value_or(0.0), false};
-    place.any_heading = !at.goal.heading;
+    place.estimate = {at.after, at.goal_pose.heading.value_or(0.0), false};
+    place.any_heading = !at.goal_pose.heading;
   }
   append_intervals(place);
   latest = state_.places.push_back(place);
@@ -72,7 +72,7 @@ double Successors::earliest_arrival(const Position& position) const {
 /// The safe intervals of a vertex are the same in all stages with the same load.
 void Successors::append_intervals(Place& place) {
   const Stage& at = goals_.stage(place.stage);
-  if (at.radius_changes && place.vertex == at.goal.vertex) {
+  if (at.radius_changes && place.vertex == at.goal_pose.vertex) {
     // A robot that begins in the place of its goal may be there outside a window.
     place.is_window = place.stage > 0 || place.vertex != at.vertices->start();
   }
@@ -119,7 +119,8 @@ void Successors::append_windows(const Place& place) {
 
 Successors::Services Successors::services_from(LabelId from) {
   const Place& here = state_.place_at(from);
-  if (here.stage == goals_.last_stage() || here.vertex != goals_.stage(here.stage).goal.vertex) return {};
+  if (here.stage == goals_.last_stage() || here.vertex != goals_.stage(here.stage).goal_pose.vertex)
+    return {};
   const Place place = here;
   const Label label = state_.labels[from];
   const ServiceStop stop = goals_.service_stop(label);
@@ -147,7 +148,7 @@ std::vector<OpenEntry> Successors::services_with_other_load(LabelId from, const 
   const int stage = state_.place_at(from).stage + 1;
   const Stage& next_stage = goals_.stage(stage);
   const int vertex = next_stage.is_rest
-                         ? next_stage.goal.vertex
+                         ? next_stage.goal_pose.vertex
                          : next_stage.vertices->goals()[static_cast<std::size_t>(stage - 1)].vertex;
   const PlaceId next = place_of(vertex, stage);
   const double t_end = std::max(stop.t_end, label.arrival);

@@ -29,7 +29,7 @@ class Successors {
   /// The place of a vertex in a stage, with its safe intervals; computed when it is reached for the first
   /// time.
   PlaceId place_of(int vertex, int stage);
-  PlaceId goal_of(int stage) { return place_of(goals_.stage(stage).goal.vertex, stage); }
+  PlaceId goal_of(int stage) { return place_of(goals_.stage(stage).goal_pose.vertex, stage); }
 
   /// The service that a label begins, with its timed entries.
   struct Services {
