@@ -107,17 +107,6 @@ std::optional<std::vector<DisturbedActions>> draw_disturbances(const std::vector
   return drawn;
 }
 
-std::vector<HaltPlace> halt_places(const Action& action, const DisturbedActions& disturbed,
-                                   std::size_t index) {
-  const double moving = disturbed.actions[index].moving;
-  std::vector<HaltPlace> places;
-  // Bounded: the halts that were drawn.
-  for (const DisturbedActions::Halt& halt : disturbed.halts(index)) {
-    places.push_back({share_covered(action, halt.after / moving), halt.seconds});
-  }
-  return places;
-}
-
 std::optional<std::vector<Phase>> moving_phases(const DisturbedActions& disturbed, std::size_t action,
                                                 const StopCondition& stop) {
   constexpr std::size_t kPhasesBetweenPolls = 1024;
@@ -134,6 +123,30 @@ std::optional<std::vector<Phase>> moving_phases(const DisturbedActions& disturbe
   }
   phases.push_back({moving - moved, 1.0});
   return phases;
+}
+
+namespace {
+
+/// The factors on the speeds of the actions of a drive.
+std::vector<double> factors(Actions actions, std::size_t first, const DisturbedActions& disturbed) {
+  std::vector<double> all;
+  const std::size_t end = end_of_drive(actions, first);
+  for (std::size_t k = first; k < end; ++k) all.push_back(disturbed.actions[k].factor);
+  return all;
+}
+
+}  // namespace
+
+DisturbedDrive::DisturbedDrive(Actions actions, std::size_t first, const DisturbedActions& disturbed,
+                               double t, double start_speed)
+    : drive(actions, first, factors(actions, first, disturbed), t, start_speed) {
+  // Bounded: the halts that were drawn.
+  for (std::size_t k = first; k < drive.end(); ++k) {
+    const double moving = disturbed.actions[k].moving;
+    for (const DisturbedActions::Halt& at : disturbed.halts(k)) {
+      halts.push_back({drive.place_of(k, share_covered(actions[k], at.after / moving)), at.seconds});
+    }
+  }
 }
 
 }  // namespace fleetplan::core

@@ -1,7 +1,8 @@
 #pragma once
 
 // What delays robots, and how far they drive beside their paths. Drawn for one execution of a fleet at a
-// time. The phases of an action are what a robot has to do, as far as its policy may not change it.
+// time. The phases of an action, or the drive of a robot with profiles, are what a robot has to do, as far as
+// its policy may not change it.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +10,8 @@
 #include <span>
 #include <vector>
 
+#include "core/execution/drive.h"
+#include "core/execution/executed_actions.h"
 #include "core/model/action.h"
 #include "core/model/plan.h"
 #include "core/runtime/stop_condition.h"
@@ -85,17 +88,6 @@ std::optional<std::vector<DisturbedActions>> draw_disturbances(const std::vector
                                                                std::uint64_t seed, std::uint64_t run,
                                                                const StopCondition& stop);
 
-/// A robot with a profile brakes so that it stands for a while where it has covered this share of the action.
-struct HaltPlace {
-  double fraction = 0.0;
-  double seconds = 0.0;
-};
-
-/// The halts of an action with a profile: each is where the undisturbed robot is after the same share of its
-/// time.
-std::vector<HaltPlace> halt_places(const Action& action, const DisturbedActions& disturbed,
-                                   std::size_t index);
-
 /// A part of an action that takes a fixed time. During it the robot moves at constant speed from the end of
 /// the part before to this fraction of the action; it stands if the fraction is the same.
 struct Phase {
@@ -107,5 +99,35 @@ struct Phase {
 /// mean speed. Returns none if `stop` is met first.
 std::optional<std::vector<Phase>> moving_phases(const DisturbedActions& disturbed, std::size_t action,
                                                 const StopCondition& stop);
+
+/// Whether the robot is at speed when an action begins, so that nothing can delay it.
+inline bool goes_on_at_speed(Actions actions, std::size_t action) {
+  return actions[action].profile && actions[action].profile->start > 0.0;
+}
+
+/// A drive with profiles, and the halts on its way: the robot brakes so that it stands for a while at each.
+/// It halts where the undisturbed robot is after the same share of the time of the action.
+struct DisturbedDrive {
+  struct Halt {
+    double place = 0.0;  // of the drive
+    double seconds = 0.0;
+  };
+
+  DisturbedDrive(Actions actions, std::size_t first, const DisturbedActions& disturbed, double t,
+                 double start_speed);
+
+  std::optional<Halt> next_halt() const {
+    return halt < halts.size() ? std::optional(halts[halt]) : std::nullopt;
+  }
+  /// Goes on after a halt, at this time.
+  void pass_halt(double t) {
+    drive.stand_until(t);
+    ++halt;
+  }
+
+  Drive drive;
+  std::vector<Halt> halts = {};  // ascending
+  std::size_t halt = 0;          // the next one
+};
 
 }  // namespace fleetplan::core

@@ -5,7 +5,7 @@
 #include <tuple>
 #include <utility>
 
-#include "core/execution/simulation/disturbed_drive.h"
+#include "core/execution/simulation/disturbance.h"
 #include "core/execution/simulation/executed_motion.h"
 #include "core/execution/simulation/execution_policy.h"
 

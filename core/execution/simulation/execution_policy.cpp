@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "core/execution/simulation/disturbed_drive.h"
-
 namespace fleetplan::core {
 namespace {
 
