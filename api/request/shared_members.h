@@ -1,6 +1,7 @@
 #pragma once
 
-// What several members of a request have in common: quotas, ids that are unique, and what answers repeat.
+// What several members of a request have in common: the frame of their positions, quotas, ids that are
+// unique, and what answers repeat.
 
 #include <algorithm>
 #include <cstddef>
@@ -12,9 +13,19 @@
 
 #include "api/json/errors.h"
 #include "api/json/json_reader.h"
+#include "core/geometry/position.h"
 #include "core/model/action.h"
 
 namespace fleetplan::api {
+
+/// Where the map lies in the client's world. The core plans in the map frame, whose origin is the lower-left
+/// corner of the map; the axes are the same.
+struct WorldFrame {
+  core::Position origin{0.0, 0.0};  // origin of the map in the world, metres
+
+  core::Position to_map(const core::Position& world) const { return world - origin; }
+  core::Position to_world(const core::Position& map) const { return map + origin; }
+};
 
 /// How many things of one kind a request may contain in total, wherever they are.
 class Quota {

@@ -8,7 +8,6 @@
 
 #include "api/json/json_reader.h"
 #include "api/request/shared_members.h"
-#include "api/request/world_frame.h"
 #include "core/geometry/tolerance.h"
 #include "core/model/action.h"
 #include "core/model/loads.h"

@@ -7,7 +7,7 @@
 
 #include "api/json/json_reader.h"
 #include "api/request/fleet/parse_robots.h"
-#include "api/request/world_frame.h"
+#include "api/request/shared_members.h"
 #include "core/execution/dependencies.h"
 #include "core/model/plan.h"
 #include "core/model/robot.h"

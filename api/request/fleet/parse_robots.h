@@ -13,7 +13,6 @@
 #include "api/json/json_reader.h"
 #include "api/request/limits.h"
 #include "api/request/shared_members.h"
-#include "api/request/world_frame.h"
 #include "core/model/open_goal.h"
 #include "core/model/robot.h"
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "api/json/json_reader.h"
-#include "api/request/world_frame.h"
+#include "api/request/shared_members.h"
 #include "core/map/occupancy_grid.h"
 
 namespace fleetplan::api {
