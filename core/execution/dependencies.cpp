@@ -1,15 +1,141 @@
 #include "core/execution/dependencies.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <tuple>
 #include <utility>
 
 #include "core/execution/executed_actions.h"
 #include "core/execution/pair_dependencies.h"
+#include "core/geometry/bucket_grid.h"
+#include "core/geometry/disk_motion.h"
 
 namespace fleetplan::core {
 
 namespace {
+
+constexpr std::size_t kLooksBetweenPolls = 1024;
+/// The most buckets, which bounds memory on huge maps.
+constexpr double kMostBuckets = 2.5e5;
+
+double largest_radius(const std::vector<std::vector<PlannedStretch>>& by_robot) {
+  double largest = 0.0;
+  // Bounded: each stretch once.
+  for (const auto& stretches : by_robot) {
+    for (const PlannedStretch& stretch : stretches) largest = std::max(largest, stretch.radius);
+  }
+  return largest;
+}
+
+/// Returns a grid that covers all places of all robots.
+BucketGrid grid_of(const std::vector<std::vector<PlannedStretch>>& by_robot, double radius) {
+  double width = 0.0;
+  double height = 0.0;
+  // Bounded: each stretch once.
+  for (const auto& stretches : by_robot) {
+    for (const PlannedStretch& stretch : stretches) {
+      width = std::max(width, stretch.planned.path.to.x());
+      height = std::max(height, stretch.planned.path.to.y());
+    }
+  }
+  const double size = std::max(
+      {2.0 * radius, std::sqrt(width * height / kMostBuckets), width / kMostBuckets, height / kMostBuckets});
+  return {width, height, size};
+}
+
+/// The stretches of a robot that are near those of one robot that was added before.
+struct NearRobot {
+  std::size_t other = 0;
+  std::vector<NearPair> pairs;
+};
+
+/// Finds the stretches of robots that are near those of others, by buckets of the plane.
+class NearStretches {
+ public:
+  /// Indexes the stretches of robots, which are given by robot and must outlive this object.
+  explicit NearStretches(const std::vector<std::vector<PlannedStretch>>& by_robot)
+      : by_robot_(by_robot),
+        largest_radius_(largest_radius(by_robot)),
+        grid_(grid_of(by_robot, largest_radius_)),
+        buckets_(grid_.count()) {}
+
+  /// Returns the robots added before that are near this one somewhere, ascending. Returns none if `stop` is
+  /// met.
+  std::optional<std::vector<NearRobot>> near(std::size_t robot, const StopCondition& stop) {
+    std::vector<std::vector<NearPair>> by_other(by_robot_.size());
+    for (std::size_t index = 0; index < by_robot_[robot].size(); ++index) {
+      if (!find_near(robot, index, by_other, stop)) return std::nullopt;
+    }
+    std::vector<NearRobot> found;
+    for (std::size_t other = 0; other < by_other.size(); ++other) {
+      if (!by_other[other].empty()) found.push_back({other, std::move(by_other[other])});
+    }
+    return found;
+  }
+
+  /// Adds a robot's stretches to the index. Returns false if `stop` is met.
+  bool add(std::size_t robot, const StopCondition& stop) {
+    for (std::size_t index = 0; index < by_robot_[robot].size(); ++index) {
+      const Segment& path = by_robot_[robot][index].planned.path;
+      const auto id = static_cast<std::uint32_t>(entries_.size());
+      entries_.push_back({robot, index});
+      const bool added = grid_.walk(path.from, path.to, [&](std::size_t bucket, double, double) {
+        buckets_[bucket].push_back(id);
+        return !stops_after(1, stop);
+      });
+      if (!added) return false;
+    }
+    return true;
+  }
+
+ private:
+  /// Finds the stretches near one stretch, by robot. Returns false if `stop` is met.
+  bool find_near(std::size_t robot, std::size_t stretch, std::vector<std::vector<NearPair>>& by_other,
+                 const StopCondition& stop) {
+    const PlannedStretch& mine = by_robot_[robot][stretch];
+    ++asked_;
+    const auto look_into = [&](std::size_t bucket, double, double) {
+      if (stops_after(1 + buckets_[bucket].size(), stop)) return;
+      for (const std::uint32_t id : buckets_[bucket]) {
+        Entry& entry = entries_[id];
+        if (entry.asked == asked_) continue;
+        entry.asked = asked_;
+        const PlannedStretch& other = by_robot_[entry.robot][entry.stretch];
+        const NearestShares nearest = nearest_shares(other.planned.path, mine.planned.path);
+        if (nearest.distance >= other.radius + mine.radius) continue;
+        by_other[entry.robot].push_back(
+            {static_cast<std::uint32_t>(entry.stretch), static_cast<std::uint32_t>(stretch)});
+      }
+    };
+    // Only the place matters, so the stretch is given a duration of one second.
+    grid_.cover(MovingDisk({mine.planned.path, 0.0, 1.0}), mine.radius + largest_radius_, look_into);
+    return !stopped_;
+  }
+
+  /// Looks at the stop condition once in many entries; stays true once it is met.
+  bool stops_after(std::size_t looks, const StopCondition& stop) {
+    looks_ += looks;
+    if (looks_ < kLooksBetweenPolls) return stopped_;
+    looks_ = 0;
+    return stopped_ = stopped_ || stop.met();
+  }
+
+  struct Entry {
+    std::size_t robot = 0;
+    std::size_t stretch = 0;
+    std::uint64_t asked = 0;  // number of the last stretch that met this entry
+  };
+
+  const std::vector<std::vector<PlannedStretch>>& by_robot_;
+  double largest_radius_ = 0.0;
+  BucketGrid grid_;
+  std::vector<std::vector<std::uint32_t>> buckets_;  // indices of entries_
+  std::vector<Entry> entries_;
+  std::uint64_t asked_ = 0;
+  std::size_t looks_ = 0;  // entries examined since the last look at the stop condition
+  bool stopped_ = false;
+};
 
 /// A dependency by whole progress: robot `waits` may not pass `gate` until robot `leads` has reached `until`.
 struct WholeDependency {

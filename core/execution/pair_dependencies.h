@@ -1,66 +1,107 @@
 #pragma once
 
-// Which stretches of two robots are near each other, and the dependencies between the robots there.
+// The dependencies between two robots. Where two of their stretches are too near each other, whatever the
+// timing, the progress of both has a region that they keep out of; the fewest steps that keep them out of all
+// such regions are a staircase.
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "core/execution/executed_actions.h"
-#include "core/execution/staircase.h"
-#include "core/geometry/bucket_grid.h"
+#include "core/geometry/segment.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
 
-/// Two stretches of different robots whose disks would touch at some progress. There may be millions.
-struct NearPair {
-  std::uint32_t other_stretch = 0;  // a stretch of the robot that was added before
-  std::uint32_t stretch = 0;        // a stretch of the robot in question, ascending in a list
-};
-
-/// The stretches of a robot that are near those of one robot that was added before.
-struct NearRobot {
-  std::size_t other = 0;
-  std::vector<NearPair> pairs;
-};
-
-/// Finds the stretches of robots that are near those of others, by buckets of the plane.
-class NearStretches {
+/// The shares (u, v) with |p(u) - q(v)| < distance, where p and q go along two segments. Positions are affine
+/// in u and v, so this is the inside of an ellipse, or a strip if the segments are parallel, cut to the unit
+/// square: open in it, and convex. A segment of length 0 is a robot that stands.
+class ConflictRegion {
  public:
-  /// Indexes the stretches of robots, which are given by robot and must outlive this object.
-  explicit NearStretches(const std::vector<std::vector<PlannedStretch>>& by_robot);
+  ConflictRegion(const Segment& first, const Segment& second, double distance);
 
-  /// Returns the robots added before that are near this one somewhere, ascending. Returns none if `stop` is
-  /// met.
-  std::optional<std::vector<NearRobot>> near(std::size_t robot, const StopCondition& stop);
-  /// Adds a robot's stretches to the index. Returns false if `stop` is met.
-  bool add(std::size_t robot, const StopCondition& stop);
+  /// A closed range of shares.
+  struct Range {
+    double least = 0.0;
+    double most = 0.0;
+  };
+  /// Returns the shares of the second line in the part of the region with `from` <= u <= 1; none if that part
+  /// is empty.
+  std::optional<Range> second_beyond(double from) const;
+  /// Returns the shares of the first line in the part of the region with 0 <= v <= `to`; none if that part is
+  /// empty.
+  std::optional<Range> first_up_to(double to) const;
 
  private:
-  /// Finds the stretches near one stretch, by robot. Returns false if `stop` is met.
-  bool find_near(std::size_t robot, std::size_t stretch, std::vector<std::vector<NearPair>>& by_other,
-                 const StopCondition& stop);
+  Position offset_;  // p(0) - q(0)
+  Position first_;   // from the begin to the end of the first segment
+  Position second_;
+  double distance_;
+};
 
-  /// Looks at the stop condition once in many entries; stays true once it is met.
-  bool stops_after(std::size_t looks, const StopCondition& stop);
-
-  struct Entry {
-    std::size_t robot = 0;
-    std::size_t stretch = 0;
-    std::uint64_t asked = 0;  // number of the last stretch that met this entry
+/// A region of whole progress (u, v) through which the robot of u goes first: one robot passes it before
+/// another one enters.
+class PassedRegion {
+ public:
+  /// A stretch in whole progress: where it begins, and its length.
+  struct Part {
+    double begin = 0.0;
+    double length = 1.0;
   };
 
-  const std::vector<std::vector<PlannedStretch>>& by_robot_;
-  double largest_radius_ = 0.0;
-  BucketGrid grid_;
-  std::vector<std::vector<std::uint32_t>> buckets_;  // indices of entries_
-  std::vector<Entry> entries_;
-  std::uint64_t asked_ = 0;
-  std::size_t looks_ = 0;  // entries examined since the last look at the stop condition
-  bool stopped_ = false;
+  PassedRegion(const ConflictRegion& shares, const Part& first, const Part& second);
+
+  /// Returns the least v of the points with more than this u; infinity if there are none.
+  double second_after(double first) const;
+  /// Returns the greatest u of the points with at most this v; minus infinity if there are none.
+  double first_before(double second) const;
+
+  /// Bounds that rounding respects: second_after is never less than `least_second`, and infinite from
+  /// `most_first` on; first_before is never more than `most_first`, and infinite up to `least_second`.
+  double least_second() const { return least_second_; }
+  double most_first() const { return most_first_; }
+  /// Whether the region continues for all u before its first stretch, and for all v after its second one.
+  bool is_open() const { return is_open_; }
+
+ private:
+  ConflictRegion shares_;
+  Part first_;
+  Part second_;
+  double least_second_ = 0.0;
+  double most_first_ = 0.0;
+  bool is_open_ = false;
+};
+
+/// One step: v may not pass `gate` until u is at least `until`.
+struct Step {
+  double gate = 0.0;
+  double until = 0.0;
+};
+
+/// A lack of slack: the planned time of it, and the slack that there is, seconds.
+struct Tightness {
+  double t = 0.0;
+  double slack = 0.0;
+};
+
+struct Staircase {
+  std::vector<Step> steps;       // both ascending
+  std::vector<Tightness> tight;  // one for each uninterrupted lack of slack, at its least
+};
+
+/// Returns the fewest steps that keep (u, v) out of all regions, each with the planned slack (seconds, > 0),
+/// or with half of it where the whole slack would mean many small steps. Where the plan has less slack, a
+/// step demands what the plan has, so that both robots can go on; the regions are not excluded there, and the
+/// staircase is tight. Returns none if the stop condition is met.
+std::optional<Staircase> staircase_of(const std::vector<PassedRegion>& regions, const Pace& first,
+                                      const Pace& second, double slack, const StopCondition& stop);
+
+/// Two stretches of different robots whose disks would touch at some progress. There may be millions.
+struct NearPair {
+  std::uint32_t other_stretch = 0;  // of the first robot
+  std::uint32_t stretch = 0;        // of the second robot, ascending in a list
 };
 
 /// The dependencies between two robots.

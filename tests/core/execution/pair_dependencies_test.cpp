@@ -1,4 +1,4 @@
-#include "core/execution/staircase.h"
+#include "core/execution/pair_dependencies.h"
 
 #include <gtest/gtest.h>
 
