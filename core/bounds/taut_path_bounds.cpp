@@ -8,7 +8,6 @@
 #include <span>
 
 #include "core/instance/instance.h"
-#include "core/instance/static_fit.h"
 
 namespace fleetplan::core {
 namespace {

@@ -17,7 +17,6 @@
 #include "core/geometry/position.h"
 #include "core/geometry/tolerance.h"
 #include "core/instance/instance.h"
-#include "core/instance/static_fit.h"
 
 namespace fleetplan::core {
 namespace {

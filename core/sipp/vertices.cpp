@@ -7,7 +7,6 @@
 #include "core/geometry/segment.h"
 #include "core/geometry/tolerance.h"
 #include "core/instance/instance.h"
-#include "core/instance/static_fit.h"
 #include "core/map/refinement.h"
 
 namespace fleetplan::core {

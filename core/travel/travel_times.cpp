@@ -11,7 +11,6 @@
 
 #include "core/geometry/segment.h"
 #include "core/instance/instance.h"
-#include "core/instance/static_fit.h"
 #include "core/model/itinerary.h"
 #include "core/model/loads.h"
 #include "core/reservation/reservation_table.h"

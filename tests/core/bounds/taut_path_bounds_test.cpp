@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/bounds/lower_bound.h"
-#include "core/instance/static_fit.h"
+#include "core/instance/instance.h"
 #include "tests/core/support/planning.h"
 #include "tests/support/random_problem.h"
 
