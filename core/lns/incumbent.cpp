@@ -1,9 +1,11 @@
 #include "core/lns/incumbent.h"
 
 #include <algorithm>
+#include <new>
 #include <utility>
 
 #include "core/model/objective_share.h"
+#include "core/runtime/memory_account.h"
 
 namespace fleetplan::core {
 
@@ -68,6 +70,139 @@ void BestPlan::restore() {
   for (auto& [robot, trajectory] : differences_) incumbent_.replace(robot, std::move(trajectory));
   differences_.clear();
   loss_ = 0.0;
+}
+
+Workspace::Workspace(PlanState& state, const Incumbent& incumbent, const StopCondition& stop)
+    : state_(&state),
+      incumbent_(incumbent),
+      versions_(state.instance().size(), 0),
+      neighbourhoods_(state, incumbent.planned(), stop) {}
+
+Workspace::Workspace(const Instance& instance, const PlanOptions& options, const Incumbent& incumbent,
+                     const StopCondition& stop)
+    : own_instance_(std::make_unique<Instance>(instance.problem(), options, instance.fixed_reservations(),
+                                               stop.despite_memory())),
+      own_state_(std::make_unique<PlanState>(*own_instance_)),
+      state_(own_state_.get()),
+      incumbent_(incumbent),
+      versions_(own_instance_->size(), -1),
+      neighbourhoods_(*state_, incumbent.planned(), stop) {
+  std::vector<bool> stays(own_instance_->size(), true);
+  for (const std::size_t robot : incumbent.followers()) stays[robot] = false;
+  for (std::size_t robot = 0; robot < stays.size(); ++robot) {
+    if (stays[robot]) state_->reservations().stay_in_place(robot);
+  }
+}
+
+bool Workspace::follow_incumbent(const StopCondition& stop) {
+  constexpr std::size_t kRobotsBetweenStops = 8;
+  std::size_t count = 0;
+  for (const std::size_t robot : incumbent_.followers()) {
+    if (++count % kRobotsBetweenStops == 0 && stop.met()) return false;
+    state_->reservations().follow(robot, incumbent_.trajectory(robot));
+    versions_[robot] = incumbent_.version(robot);
+  }
+  return true;
+}
+
+void Workspace::update() {
+  std::vector<std::size_t> outdated;
+  for (const std::size_t robot : incumbent_.followers()) {
+    if (versions_[robot] != incumbent_.version(robot)) outdated.push_back(robot);
+  }
+  for (const std::size_t robot : outdated) state_->reservations().remove(robot);
+  for (const std::size_t robot : outdated) {
+    state_->reservations().follow(robot, incumbent_.trajectory(robot));
+    versions_[robot] = incumbent_.version(robot);
+  }
+}
+
+void Workspace::update(const std::map<std::size_t, Trajectory>& others) {
+  update();
+  for (const auto& [robot, trajectory] : others) {
+    state_->reservations().remove(robot);
+    versions_[robot] = -1;
+  }
+  for (const auto& [robot, trajectory] : others) state_->reservations().follow(robot, trajectory);
+}
+
+void Workspace::invalidate() { std::fill(versions_.begin(), versions_.end(), -1); }
+
+WorkspacePool::WorkspacePool(PlanState& state, const Incumbent& incumbent, const StopCondition& stop)
+    : instance_(state.instance()), options_(instance_.options()), incumbent_(incumbent), stop_(stop) {
+  idle_.push_back(std::make_unique<Workspace>(state, incumbent, stop));
+}
+
+/// With a horizon, costs have estimates that depend on the moves, so those before and after would not
+/// compare.
+bool WorkspacePool::may_add_moves() const {
+  constexpr int kMostNeighbours = 32;
+  if (!options_.any_angle || options_.horizon || options_.connectivity == kMostNeighbours) return false;
+  // Bounded: the goals of a request, once.
+  for (std::size_t robot = 0; robot < instance_.size(); ++robot) {
+    const std::size_t goals = instance_.itinerary(robot).goals.size();
+    for (std::size_t stage = 0; stage <= (instance_.stages(robot).changes_load() ? goals : 0); ++stage) {
+      if (instance_.stages(robot)[stage].free_space->finer().count() > 0) return false;
+    }
+  }
+  return true;
+}
+
+bool WorkspacePool::add_moves() {
+  if (!may_add_moves()) return false;
+  std::erase_if(idle_, [](const auto& workspace) { return workspace->has_own_state(); });
+  PlanOptions options = options_;
+  options.connectivity *= 2;
+  std::unique_ptr<Workspace> first;
+  try {
+    first = std::make_unique<Workspace>(instance_, options, incumbent_, stop_);
+    if (!first->follow_incumbent(stop_) || is_short_of_memory()) return false;
+  } catch (const std::bad_alloc&) {  // not granted to the job
+    return false;
+  }
+  options_ = options;
+  callers_ = std::move(idle_.front());
+  idle_.clear();
+  idle_.push_back(std::move(first));
+  return true;
+}
+
+std::unique_ptr<Workspace> WorkspacePool::take() {
+  std::unique_ptr<Workspace> workspace = take_idle();
+  try {
+    if (!workspace) workspace = std::make_unique<Workspace>(instance_, options_, incumbent_, stop_);
+  } catch (const std::bad_alloc&) {  // not granted to the job
+    return nullptr;
+  }
+  return workspace;
+}
+
+std::unique_ptr<Workspace> WorkspacePool::take_idle() {
+  const std::scoped_lock lock(mutex_);
+  if (idle_.empty()) return nullptr;
+  std::unique_ptr<Workspace> workspace = std::move(idle_.back());
+  idle_.pop_back();
+  return workspace;
+}
+
+void WorkspacePool::give_back(std::unique_ptr<Workspace> workspace) {
+  const std::scoped_lock lock(mutex_);
+  idle_.push_back(std::move(workspace));
+}
+
+void WorkspacePool::update_callers_state(const std::map<std::size_t, Trajectory>& others) {
+  if (callers_) callers_->update(others);
+  for (const auto& workspace : idle_) {
+    if (!workspace->has_own_state()) workspace->update(others);
+  }
+}
+
+bool WorkspacePool::release_others() {
+  const auto released =
+      std::erase_if(idle_, [](const auto& workspace) { return workspace->has_own_state(); });
+  if (!callers_) return released > 0;
+  idle_.push_back(std::move(callers_));
+  return true;
 }
 
 }  // namespace fleetplan::core

@@ -11,7 +11,6 @@
 #include "core/bounds/taut_path_bounds.h"
 #include "core/lns/incumbent.h"
 #include "core/lns/neighbourhood.h"
-#include "core/lns/pipeline.h"
 #include "core/prioritized/plan_state.h"
 #include "core/runtime/random.h"
 #include "core/runtime/stop_condition.h"
