@@ -13,7 +13,7 @@
 
 #include "api/advance/advance_request.h"
 #include "api/endpoints/pipeline.h"
-#include "api/execution/retime_request.h"
+#include "api/execution/execution_requests.h"
 #include "api/json/errors.h"
 #include "api/json/json_writer.h"
 #include "api/request/parse_body.h"

@@ -1,5 +1,3 @@
-#include "api/execution/retime_request.h"
-
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -9,6 +7,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "api/execution/execution_requests.h"
 #include "api/json/errors.h"
 #include "api/json/json_writer.h"
 #include "api/request/fleet/parse_actions.h"

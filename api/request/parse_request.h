@@ -1,6 +1,6 @@
 #pragma once
 
-// The bodies of requests to plan, to validate and to simulate. Each kind has its own source file.
+// The bodies of requests to plan and to validate.
 
 #include <array>
 #include <chrono>
@@ -16,7 +16,6 @@
 #include "api/request/map/parse_map.h"
 #include "api/request/options.h"
 #include "api/request/shared_members.h"
-#include "core/execution/simulation/simulation.h"
 #include "core/map/occupancy_grid.h"
 #include "core/map/static_map.h"
 #include "core/model/plan.h"
@@ -87,31 +86,6 @@ struct ValidateRequest {
 
 /// Reads a body of POST /v1/validate; ends with `parse_unfinished` or `draining` when `work` is met.
 Result<ValidateRequest, RequestError> parse_validate_request(std::string_view body, const Limits& limits,
-                                                             core::Work& work);
-
-/// The most runs of one study.
-inline constexpr std::size_t kMostRuns = 100'000;
-
-/// A readable body of POST /v1/simulate. The actions of every plan are contiguous from the start of its robot
-/// on; whether plans collide is not judged. A robot without a plan has its committed actions as its plan.
-struct SimulateRequest {
-  core::OccupancyGrid grid;
-  WorldFrame frame;
-  std::vector<core::Robot> robots;
-  std::vector<core::RobotPlan> plans;
-  std::vector<double> body_radii;  // metres, by robot
-  core::ExecutionPolicy policy = core::ExecutionPolicy::open_loop;
-  double max_delay = 0.0;                           // seconds, for clock_stop
-  double wait_before_move = 0.0;                    // seconds, see PlanOptions
-  std::vector<core::Dependency> dependencies = {};  // by robot
-  core::SimulationSettings settings = {};
-  std::optional<std::size_t> trace = {};  // the run that is returned
-  std::chrono::nanoseconds budget{};
-  std::vector<std::string> warnings = {};
-};
-
-/// Reads a body of POST /v1/simulate; ends with `parse_unfinished` or `draining` when `work` is met.
-Result<SimulateRequest, RequestError> parse_simulate_request(std::string_view body, const Limits& limits,
                                                              core::Work& work);
 
 }  // namespace fleetplan::api

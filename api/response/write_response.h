@@ -1,7 +1,6 @@
 #pragma once
 
-// The answer with a plan, the parts of it that other answers have as well, the report of a check, and the
-// results of a simulation.
+// The answer with a plan, the parts of it that other answers have as well, and the report of a check.
 
 #include <chrono>
 #include <optional>
@@ -11,7 +10,6 @@
 #include "api/json/json_writer.h"
 #include "api/request/shared_members.h"
 #include "core/execution/dependencies.h"
-#include "core/execution/simulation/simulation.h"
 #include "core/geometry/position.h"
 #include "core/model/action.h"
 #include "core/model/plan.h"
@@ -22,8 +20,6 @@
 #include "core/verify/verify.h"
 
 namespace fleetplan::api {
-
-struct SimulateRequest;
 
 /// When the stages of a request ended.
 struct StageTimes {
@@ -78,13 +74,5 @@ std::optional<double> reported_clearance(const core::VerifyReport& report);
 std::string write_report(const core::VerifyReport& report, const std::vector<core::Robot>& robots,
                          const std::vector<core::MovingObstacle>& obstacles,
                          const std::vector<core::Zone>& zones);
-
-/// Returns the `trace` of the answer; none if `stop` is met first.
-std::optional<std::string> write_trace(const core::SimulationTrace& trace, const SimulateRequest& request,
-                                       const core::StopCondition& stop);
-
-/// Returns the answer of POST /v1/simulate. `trace`: its text, if there is one.
-std::string write_simulation(const core::SimulationReport& report, const SimulateRequest& request,
-                             const std::optional<std::string>& trace, const std::string& request_id);
 
 }  // namespace fleetplan::api
