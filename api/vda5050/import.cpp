@@ -13,8 +13,7 @@
 #include "api/json/errors.h"
 #include "api/json/json_writer.h"
 #include "api/request/limits.h"
-#include "api/vda5050/parse_vda5050_request.h"
-#include "api/vda5050/write_orders.h"
+#include "api/vda5050/export.h"
 #include "core/geometry/position.h"
 
 namespace fleetplan::api {

@@ -13,7 +13,7 @@
 
 #include "api/json/json_reader.h"
 #include "api/request/limits.h"
-#include "api/vda5050/parse_vda5050_request.h"
+#include "api/vda5050/export.h"
 #include "core/geometry/segment.h"
 #include "core/runtime/stop_condition.h"
 

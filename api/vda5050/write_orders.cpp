@@ -1,5 +1,3 @@
-#include "api/vda5050/write_orders.h"
-
 #include <algorithm>
 #include <cstdint>
 #include <numbers>
@@ -9,7 +7,7 @@
 #include <vector>
 
 #include "api/json/json_writer.h"
-#include "api/vda5050/parse_vda5050_request.h"
+#include "api/vda5050/export.h"
 #include "api/vda5050/route.h"
 #include "core/geometry/position.h"
 

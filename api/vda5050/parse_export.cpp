@@ -1,5 +1,3 @@
-#include "api/vda5050/parse_vda5050_request.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +9,7 @@
 #include "api/request/fleet/parse_robots.h"
 #include "api/request/limits.h"
 #include "api/request/options.h"
+#include "api/vda5050/export.h"
 #include "api/vda5050/route.h"
 #include "core/execution/executed_actions.h"
 
@@ -62,8 +61,7 @@ class BaseReader {
   OrderBase base_;
 };
 
-}  // namespace
-
+/// Reads `base`: of each robot at most one order, and the state of its vehicle. Returns them by robot.
 std::vector<std::optional<OrderBase>> parse_bases(const JsonReader& member,
                                                   const std::vector<core::Robot>& robots) {
   std::vector<std::optional<OrderBase>> bases(robots.size());
@@ -84,8 +82,6 @@ std::vector<std::optional<OrderBase>> parse_bases(const JsonReader& member,
   }
   return bases;
 }
-
-namespace {
 
 /// The last node of a base and the end of committed motion that are nearer are the same (metres): rounding.
 constexpr double kSameNode = 1e-6;
