@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <utility>
 
-#include "api/advance/committed_motion.h"
 #include "core/geometry/tolerance.h"
 #include "core/model/itinerary.h"
 #include "core/model/loads.h"

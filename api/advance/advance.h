@@ -2,8 +2,9 @@
 
 // The fleet at a later moment of its plan. All poses are in the client's world, so that no number changes
 // that the moment does not change: what a robot executes, seen from that moment (timeline.cpp), what
-// is released of it already (released.cpp), how robots brake that need time to stop (inertia.cpp), the robots
-// of the next request (advance.cpp). For commitments that end where robots may stay see committed_motion.h.
+// is released of it already (released.cpp), how robots brake that need time to stop (inertia.cpp), which
+// commitments collide and where they have to end (committed_motion.cpp), the robots of the next request
+// (advance.cpp).
 
 #include <cstddef>
 #include <optional>
@@ -85,6 +86,31 @@ std::optional<double> standing_time(const std::vector<core::Robot>& robots,
 std::vector<double> margins_of(const std::vector<core::Robot>& robots,
                                const std::vector<Execution>& executions, const Moment& moment,
                                const std::vector<core::Robot>& next, core::Work& work);
+
+/// Two robots whose disks overlap.
+struct Collision {
+  std::size_t first = 0;
+  std::size_t second = 0;
+  double t = 0.0;  // seconds: 0 if they overlap already, otherwise when they begin to
+};
+
+/// Returns the pairs of robots that collide if all execute nothing but their commitments, and then stand:
+/// pairs that overlap already, and pairs of which one robot cannot stop in time. `braking`: by robot, see
+/// braking_of; a robot executes that, too, if its commitment ends before. Of many pairs, only the first are
+/// returned. Ends early when `work` is met.
+std::vector<Collision> unavoidable_collisions(const std::vector<core::Robot>& robots,
+                                              const std::vector<std::vector<core::Action>>& braking,
+                                              core::Work& work);
+
+/// Ends committed actions early, so that every robot may stay for ever where its commitment ends: none meets
+/// another one, nor passes where another one has ended. Whatever becomes of the plans behind the commitments,
+/// nobody then drives into a robot that stands. Robots are only stopped while they drive; a wait stays
+/// committed. `margins`: metres, by robot, that they keep around their disks; robots that are nearer to each
+/// other at the moment keep half of what they have, or a quarter of the margins if they have that. `braking`:
+/// by robot, see braking_of; none of these commitments ends before, unless it collides with another
+/// commitment. Ends early when `work` is met.
+void clear_commitments(std::vector<core::Robot>& robots, const std::vector<double>& margins,
+                       const std::vector<std::vector<core::Action>>& braking, core::Work& work);
 
 /// Returns the robots of the request of that moment. Committed actions end where they touch another robot
 /// that is committed or stands at the end of its commitment: see clear_commitments. `braking`: by robot, see

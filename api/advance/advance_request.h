@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "api/advance/advance.h"
-#include "api/advance/committed_motion.h"
 #include "api/json/json_reader.h"
 #include "api/request/limits.h"
 #include "api/request/parse_body.h"

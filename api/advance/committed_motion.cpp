@@ -1,4 +1,5 @@
-#include "api/advance/committed_motion.h"
+// The motion of robots that execute nothing but their commitments, in pieces of straight motion and rest;
+// which of them collide then; and commitments that end early, so that none do.
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,8 @@
 #include <utility>
 
 #include "api/advance/advance.h"
+#include "core/geometry/disk_motion.h"
+#include "core/geometry/position.h"
 #include "core/geometry/tolerance.h"
 #include "core/model/itinerary.h"
 #include "core/model/loads.h"
@@ -22,8 +25,35 @@ namespace {
 /// Metres: two disks that come nearer by less do not; far above rounding.
 constexpr double kNearer = 1e-9;
 
-}  // namespace
+/// Copying a piece, or comparing two, is as much work as reading so many bytes.
+constexpr std::size_t kWorkOfAPiece = 64;
 
+/// A piece of straight motion or rest.
+struct Piece {
+  double begin;
+  double end;
+  core::Position from;
+  core::Position velocity;  // the mean
+  double radius = 0.0;      // of the bare disk
+  bool grows = false;       // it is smaller before
+  double ramp = 0.0;        // see core::TimedSegment
+
+  core::Position at(double t) const {
+    return ramp == 0.0 ? core::Position(from + velocity * (t - begin)) : disk().at(t);
+  }
+  core::MovingDisk disk() const {
+    core::MovingDisk disk;
+    disk.from = from;
+    disk.velocity = velocity;
+    disk.t_start = begin;
+    disk.t_end = end;
+    disk.ramp = ramp;
+    return disk;
+  }
+  bool moves() const { return velocity.squaredNorm() > 0.0; }
+};
+
+/// Returns the pieces of the commitment, and then the stay at its end, which has no end.
 std::vector<Piece> committed_pieces(const core::Robot& robot) {
   std::vector<core::RadiusStep> steps;
   if (core::changes_radius(robot)) {
@@ -75,6 +105,8 @@ std::vector<Piece> committed_pieces(const core::Robot& robot) {
   return pieces;
 }
 
+/// Returns when two pieces begin to be nearer than a distance, in the time of both; at the beginning of that
+/// time if they are nearer then and come nearer.
 std::optional<double> first_overlap(const Piece& a, const Piece& b, double distance) {
   const double begin = std::max(a.begin, b.begin);
   const double end = std::min(a.end, b.end);
@@ -97,7 +129,17 @@ std::optional<double> first_overlap(const Piece& a, const Piece& b, double dista
   return t < end ? std::optional(t) : std::nullopt;
 }
 
-namespace {
+/// Calls visit(piece, other) for the pieces of two robots whose times overlap, in the order of time, until it
+/// returns true or `work` is met.
+template <class Visit>
+void visit_in_time(std::span<const Piece> pieces, std::span<const Piece> others, core::Work& work,
+                   const Visit& visit) {
+  std::size_t i = 0;
+  for (std::size_t k = 0; k < pieces.size() && i < others.size();) {
+    if (work.met_after(kWorkOfAPiece) || visit(pieces[k], others[i])) return;
+    others[i].end < pieces[k].end ? ++i : ++k;
+  }
+}
 
 /// Pairs that are listed; where more overlap, nobody reads all of them.
 constexpr std::size_t kMostPairs = 10'000;

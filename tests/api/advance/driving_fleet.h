@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "api/advance/advance.h"
-#include "api/advance/committed_motion.h"
 #include "tests/support/unbounded_work.h"
 
 namespace fleetplan::api {
