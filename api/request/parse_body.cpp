@@ -14,7 +14,7 @@
 #include "api/json/json_reader.h"
 #include "api/request/fleet/parse_robots.h"
 #include "api/request/limits.h"
-#include "api/request/map/parse_zones.h"
+#include "api/request/map/parse_map.h"
 #include "api/request/shared_members.h"
 #include "core/map/lattice.h"
 

@@ -15,7 +15,6 @@
 #include "api/request/fleet/parse_robots.h"
 #include "api/request/limits.h"
 #include "api/request/map/parse_map.h"
-#include "api/request/map/parse_zones.h"
 #include "api/request/options.h"
 #include "api/request/parse_body.h"
 #include "api/request/shared_members.h"

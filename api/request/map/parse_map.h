@@ -1,15 +1,20 @@
 #pragma once
 
-// Maps of requests: where they lie in the world, and the kinds in which they are given.
+// Maps of requests: where they lie in the world, the kinds in which they are given, and their zones.
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "api/json/json_reader.h"
+#include "api/request/limits.h"
 #include "api/request/shared_members.h"
 #include "core/map/occupancy_grid.h"
+#include "core/model/surroundings.h"
 
 namespace fleetplan::api {
+
+struct ParsedRobot;
 
 /// The map of a request and where it lies in the world.
 struct WorldMap {
@@ -53,5 +58,15 @@ std::optional<WorldMap> parse_occupancy_grid_map(const JsonReader& map, std::int
 
 /// Reads a map with the member `image`: an image and the members of its map.yaml.
 std::optional<WorldMap> parse_image_map(const JsonReader& map, std::int64_t max_cells);
+
+/// The robots that zones may name: those of the request, or also others, which are not there.
+enum class ZoneRobots { of_request, also_others };
+
+/// Reads `zones` (may be absent), in the frame of the map; those with a fault are left out. Their robots are
+/// indices into `robots`; one that is not there has the first index that is none. A mask becomes several
+/// zones of one id, which follow each other. Without a map (null), masks are not read.
+std::vector<core::Zone> parse_zones(const JsonReader& member, const WorldMap* map, const Limits& limits,
+                                    const std::vector<ParsedRobot>& robots,
+                                    ZoneRobots named = ZoneRobots::of_request);
 
 }  // namespace fleetplan::api

@@ -1,8 +1,9 @@
-#include "api/request/map/parse_zones.h"
+// Zones of requests. Their shapes are polygons, or masks, which are images of the map.
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <iterator>
 #include <map>
 #include <numbers>
@@ -13,13 +14,17 @@
 #include <tuple>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "api/json/errors.h"
 #include "api/request/fleet/parse_robots.h"
 #include "api/request/limits.h"
 #include "api/request/map/image/decode_image.h"
+#include "api/request/map/parse_map.h"
 #include "api/request/shared_members.h"
 #include "core/geometry/position.h"
+#include "core/map/occupancy_grid.h"
+#include "core/model/surroundings.h"
 
 namespace fleetplan::api {
 
@@ -124,8 +129,9 @@ Corners parse_corners(const JsonReader& list, const WorldFrame& frame) {
   return list.fault_count() == faults ? corners : Corners{};
 }
 
-}  // namespace
-
+/// Reads the corners of a simple polygon, in the map frame. Fewer than three, one that equals the one before
+/// and borders that meet elsewhere than at their common corner are faults; then none are returned. All
+/// polygons together take their corners from the quota.
 std::vector<core::Position> parse_polygon(const JsonReader& member, const WorldFrame& frame, Quota& corners) {
   const JsonReader list = member.array();
   if (!list || !corners.take(list)) return {};
@@ -153,7 +159,11 @@ std::vector<core::Position> parse_polygon(const JsonReader& member, const WorldF
   return read;
 }
 
-namespace {
+/// Cells of a mask that have the same value, as a rectangle in the map frame.
+struct MaskPart {
+  std::int8_t percent = 0;
+  std::vector<core::Position> polygon;
+};
 
 constexpr std::int8_t kLeastOccupied = 65;  // percent
 constexpr std::int8_t kWhole = 100;
@@ -217,8 +227,10 @@ std::vector<MaskPart> parts_of(const Raster& raster, double resolution, std::siz
   return parts;
 }
 
-}  // namespace
-
+/// Reads `mask`: an image of the size of the map, a pixel for each cell. With `by_percent`, the parts are the
+/// cells from 1 to 100 %; otherwise those that are occupied by the thresholds of map_server, as 100 %. Parts
+/// overlap by far less than a cell, so that nothing lies between them. Returns none when it has a fault. All
+/// parts of a request take their corners from the quota.
 std::vector<MaskPart> parse_mask(const JsonReader& member, const core::OccupancyGrid& map, bool by_percent,
                                  Quota& corners) {
   const std::size_t faults = member.fault_count();
@@ -241,8 +253,6 @@ std::vector<MaskPart> parse_mask(const JsonReader& member, const core::Occupancy
                                          });
   return corners.take(kCorners * parts.size(), member) ? parts : std::vector<MaskPart>{};
 }
-
-namespace {
 
 using Type = core::Zone::Type;
 
