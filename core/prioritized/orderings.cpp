@@ -47,22 +47,10 @@ double distance_to_goals(const Robot& robot) {
   return distance + (robot.goal->position - from).norm();
 }
 
-/// The distance over the speed to this power.
-double weighted_distance(const Robot& robot, double speed_weight) {
-  return distance_to_goals(robot) / std::pow(robot.linear_speed, speed_weight);
-}
-
-/// The nearest to their goals first. A heavy robot counts as so many times nearer (Smith's rule, 1956).
-PriorityOrder sorted_by_distance(const std::vector<Robot>& all, PriorityOrder robots, double speed_weight) {
-  const auto key = [&](std::size_t i) { return weighted_distance(all[i], speed_weight) / all[i].weight; };
-  std::stable_sort(robots.begin(), robots.end(), [&](auto a, auto b) { return key(a) < key(b); });
-  return robots;
-}
-
 }  // namespace
 
-PriorityOrder order_by_time(const Instance& instance, std::vector<std::size_t> robots) {
-  return sorted_by_distance(instance.problem().robots(), std::move(robots), 1.0);
+double rank_by_time(const Robot& robot, double seconds) {
+  return seconds * std::pow(robot.linear_speed, 1.0 - kSpeedWeight) / robot.weight;
 }
 
 PriorityOrder initial_order(const Instance& instance, std::vector<std::size_t> robots, Random& random) {
@@ -71,15 +59,19 @@ PriorityOrder initial_order(const Instance& instance, std::vector<std::size_t> r
 
 PriorityOrder initial_order(const std::vector<Robot>& all, const PlanOptions& options,
                             std::vector<std::size_t> robots, Random& random) {
+  const auto rank = [](const Robot& robot) {
+    return rank_by_time(robot, distance_to_goals(robot) / robot.linear_speed);
+  };
   switch (options.priority) {
     case PlanOptions::Priority::shortest_first:
-      robots = sorted_by_distance(all, std::move(robots), kSpeedWeight);
+      std::stable_sort(robots.begin(), robots.end(),
+                       [&](auto a, auto b) { return rank(all[a]) < rank(all[b]); });
       if (options.horizon) order_for_horizon(all, robots);
       break;
     case PlanOptions::Priority::longest_first:
+      // A heavy robot counts as farther from its goal.
       std::stable_sort(robots.begin(), robots.end(), [&](auto a, auto b) {
-        return weighted_distance(all[a], kSpeedWeight) * all[a].weight >
-               weighted_distance(all[b], kSpeedWeight) * all[b].weight;
+        return rank(all[a]) * all[a].weight * all[a].weight > rank(all[b]) * all[b].weight * all[b].weight;
       });
       break;
     case PlanOptions::Priority::random:
@@ -89,12 +81,6 @@ PriorityOrder initial_order(const std::vector<Robot>& all, const PlanOptions& op
       break;
   }
   return robots;
-}
-
-bool differ_in_size(const Instance& instance, const PriorityOrder& order) {
-  return std::any_of(order.begin(), order.end(), [&](std::size_t robot) {
-    return instance.motion(robot).pair_radius != instance.motion(order.front()).pair_radius;
-  });
 }
 
 double random_start_delay(const Instance& instance, const PriorityOrder& order, Random& random) {

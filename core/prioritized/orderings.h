@@ -21,20 +21,18 @@ namespace fleetplan::core {
 /// Robots by index, the highest priority first.
 using PriorityOrder = std::vector<std::size_t>;
 
-/// Returns the first order of these robots (ascending, with goals), by the options' priority: by straight
-/// distance from start to goal, where a faster robot counts as slightly nearer, as listed, or at random. By
-/// distance, a heavy robot (Robot::weight) comes before others that are as far from their goals.
-/// Shortest first with a horizon, the robot with the oldest goal comes first, so that nobody is passed over
-/// for ever, and those that have arrived come last, so that they make way. Ties keep the order of the list.
+/// Where a robot ranks that takes so many seconds to its last goal, shortest first: by that time, but a
+/// faster robot counts as only slightly nearer, and a heavy one (Robot::weight) as so many times nearer
+/// (Smith's rule, 1956).
+double rank_by_time(const Robot& robot, double seconds);
+
+/// Returns the first order of these robots (ascending, with goals), by the options' priority: by their ranks
+/// on straight lines to their goals, as listed, or at random. Shortest first with a horizon, the robot with
+/// the oldest goal comes first, so that nobody is passed over for ever, and those that have arrived come
+/// last, so that they make way. Ties keep the order of the list.
 PriorityOrder initial_order(const Instance& instance, std::vector<std::size_t> robots, Random& random);
 PriorityOrder initial_order(const std::vector<Robot>& all, const PlanOptions& options,
                             std::vector<std::size_t> robots, Random& random);
-
-/// Returns the robots by the time that each takes alone along a straight line, heavy ones sooner.
-PriorityOrder order_by_time(const Instance& instance, std::vector<std::size_t> robots);
-
-/// Whether the robots of the order differ in size, inflation and vicinity included.
-bool differ_in_size(const Instance& instance, const PriorityOrder& order);
 
 /// Returns a start delay that may give other robots time to get out of the way, seconds: uniform up to the
 /// lower bound of a random robot of the order.
@@ -85,46 +83,31 @@ struct OrderingResult {
   bool cut_off = false;       // the stop condition was met first
 };
 
-/// Plans all robots of `order` and raises the priority of those that fail (paper, section Prioritized
-/// planning). Repairs the plan after a failure instead of starting again:
+/// Plans all robots of `order`, which have no reservations, and repairs the plan after a failure instead of
+/// starting again: a robot that fails among all others is planned so that it conflicts with few others
+/// (EjectionSearch), and those are planned next. `unsolved` is empty unless `stop` was met. When it is,
+/// `on_stop` decides, if there is one, whether to go on.
 ///
-/// 1. A robot that fails among all others is planned among those of higher priority only.
-/// 2. If that fails, it gets the highest priority. It is planned among the robots that had a higher priority
-///    and are at least as large, and if that fails, among only those that stay at their starts.
-/// 3. The trajectories that conflict with its own are removed, and their robots are planned again.
+/// A robot that fails too often for that may be in a cycle. It is planned among those of higher priority
+/// only. If that fails, it gets the highest priority (paper, section Prioritized planning), and is planned
+/// among the robots that had a higher one and are at least as large, after a start delay, or among only those
+/// that stay at their starts. The trajectories that conflict with its own are removed, and the priorities of
+/// their robots are shuffled. One that finds no path then, or fails too often for that as well, is given up:
+/// it stays at its start.
 ///
 /// Before that, a robot that fails, gains nothing within the horizon, or costs much more than alone is
 /// planned past those that yield (Robot::yields), as if they left when they have served their goals; if it
 /// gains more by that than they lose, those that are in its way are planned again. So nobody moves for
 /// nothing. One that cannot make way stays.
-///
-/// After several failures the fleet counts as a dense crowd: then a failed robot is not raised, but planned
-/// so that it conflicts with few others (EjectionSearch), and those are planned next.
-///
-/// If robots raise each other again and again, the priorities of those involved are shuffled, and a start
-/// delay is tried. A robot that fails at step 2, or too often, is given up: it stays at its start. Returns
-/// none as soon as `max_failures` attempts have failed. When `stop` is met, `on_stop` decides, if there is
-/// one, whether to go on.
-std::optional<OrderingResult> repair(PlanState& state, const PriorityOrder& order, std::int64_t max_failures,
-                                     Random& random, const StopCondition& stop, ProgressReport& progress,
-                                     const OnStop& on_stop = nullptr);
+OrderingResult repair_all(PlanState& state, const PriorityOrder& order, Random& random,
+                          const StopCondition& stop, ProgressReport& progress,
+                          const OnStop& on_stop = nullptr);
 
-/// Plans the robots of `order` as repair() does, from a state in which some of them follow trajectories
+/// Plans the robots of `order` as repair_all() does, from a state in which some of them follow trajectories
 /// already. They keep these until a robot with a higher priority needs their way.
 OrderingResult repair_around(PlanState& state, const PriorityOrder& order, Random& random,
                              const StopCondition& stop, ProgressReport& progress,
                              const OnStop& on_stop = nullptr);
-
-/// Plans all robots of `order`, which have no reservations, with repairs (see repair()). If the robots differ
-/// in size and many attempts fail, starts again once in an order with larger robots first, as small robots
-/// find other paths more easily. `unsolved` is empty unless `stop` was met.
-OrderingResult repair_or_restart(PlanState& state, const PriorityOrder& order, Random& random,
-                                 const StopCondition& stop, ProgressReport& progress,
-                                 const OnStop& on_stop = nullptr);
-
-/// Plans all robots of `order` from the beginning, with repairs only, for further attempts.
-OrderingResult repair_once(PlanState& state, const PriorityOrder& order, Random& random,
-                           const StopCondition& stop, ProgressReport& progress);
 
 /// Plans all robots of `order`; whenever one fails, starts again in another order (paper, section Prioritized
 /// planning). Ends when all have a trajectory, all orders have failed, or `stop` is met, and leaves the state

@@ -118,7 +118,7 @@ class SafePlanner {
   }
 
   bool try_plan(std::size_t robot, const SearchLimits& limits) {
-    state_.relieve_memory();
+    state_.memory().relieve();
     if (stop_.met()) {
       result_.cut_off = true;
       return false;

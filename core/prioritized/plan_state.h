@@ -49,8 +49,8 @@ class PlanState {
   /// None as well if it has no such way.
   const std::optional<std::size_t>& whole_way_of() const { return whole_way_of_; }
 
-  /// Gives up what searches keep for later, if memory is short.
-  void relieve_memory() { memory_.relieve(); }
+  /// What searches keep for later.
+  SearchMemory& memory() { return memory_; }
 
   /// Expansions of all searches among reservations so far.
   std::int64_t expansions() const { return expansions_; }

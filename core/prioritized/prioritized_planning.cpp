@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/prioritized/expected_arrivals.h"
 #include "core/prioritized/lattice_steps.h"
 #include "core/prioritized/orderings.h"
 #include "core/prioritized/partial_plan.h"
@@ -20,6 +21,8 @@ constexpr int kMaxOrdersWithoutDeadline = 10;
 /// The shares of the time after which a safe plan is made, and after which the making of it ends.
 constexpr double kFirstShare = 0.5;
 constexpr double kKeepingShare = 0.9;
+/// The share of the first part of the time which finding the first order may take.
+constexpr double kOrderShare = 0.5;
 
 /// Plans every robot once, in the given order.
 OrderingResult plan_each_once(PlanState& state, const PriorityOrder& order, const StopCondition& stop,
@@ -45,6 +48,17 @@ OrderingResult plan_each_once(PlanState& state, const PriorityOrder& order, cons
   return result;
 }
 
+/// The first order; see initial_order(). Shortest first without a horizon, the robots come in the order of
+/// their expected arrivals.
+PriorityOrder first_order(PlanState& state, const std::vector<std::size_t>& movers, Random& random,
+                          const StopCondition& stop) {
+  const Instance& instance = state.instance();
+  PriorityOrder order = initial_order(instance, movers, random);
+  const bool by_arrival = instance.options().priority == PlanOptions::Priority::shortest_first;
+  if (!by_arrival || instance.options().horizon) return order;
+  return order_by_expected_arrival(state, std::move(order), after_share(stop, kOrderShare));
+}
+
 PrioritizedResult all_unplanned(const std::vector<std::size_t>& movers) {
   PrioritizedResult result;
   result.cut_off = true;
@@ -65,7 +79,7 @@ class PrioritizedPlanning {
         random_(random),
         time_(time),
         progress_(progress),
-        order_(initial_order(state.instance(), movers, random)),
+        order_(first_order(state, movers, random, time.first_part)),
         stop_(time.first_part) {
     const bool may_stop = state.instance().options().horizon && !order_.empty();
     if (may_stop && state.instance().robot(order_.front()).goal_age > 0.0) {
@@ -105,7 +119,7 @@ class PrioritizedPlanning {
     if (restarts()) {
       return plan_with_restarts(state_, order_, random_, stop_, progress_, keep_plan);
     }
-    return repair_or_restart(state_, order_, random_, stop_, progress_, keep_plan);
+    return repair_all(state_, order_, random_, stop_, progress_, keep_plan);
   }
 
   /// Keeps a safe plan at the end of the first part of the time, and returns to where planning was. Returns
@@ -166,7 +180,7 @@ class PrioritizedPlanning {
       for (const std::size_t robot : order) state_.reservations().remove(robot);
       for (const std::size_t robot : hopeless) state_.reservations().stay_in_place(robot);
       random_.shuffle(order);
-      OrderingResult ordering = repair_once(state_, order, random_, time_.all, progress_);
+      OrderingResult ordering = repair_all(state_, order, random_, time_.all, progress_);
       result_.attempts += ordering.attempts;
       ordering.given_up.insert(ordering.given_up.end(), hopeless.begin(), hopeless.end());
       hopeless.insert(hopeless.end(), ordering.hopeless.begin(), ordering.hopeless.end());

@@ -15,20 +15,9 @@
 namespace fleetplan::core {
 namespace {
 
-/// The failures of a robot after which it may be in a cycle of robots that raise each other.
-constexpr int kFailuresBeforeShuffle = 3;
 /// The failures of a robot after which it is given up. In the paper's halls with 300 robots none failed more
 /// than 5 times.
 constexpr int kMaxFailuresOfRobot = 40;
-/// The failure from which on the fleet counts as a dense crowd, in which robots are ejected. Robots of one
-/// size in the paper's crowds are planned sooner so. Where sizes differ, planning starts again with larger
-/// robots first before that (repair_or_restart); then no fleet in the paper's halls fails so often.
-constexpr std::int64_t kFirstEjection = 3;
-constexpr std::int64_t kFirstEjectionOfSizes = 20;
-/// The first ejection in mode `anytime` where sizes differ. Twice the expansions of the first plan are well
-/// spent there: with 180 robots in the paper's hall with rectangles, its flowtime is 0.96 of that without,
-/// and 0.97 after 5,000 iterations.
-constexpr std::int64_t kFirstEjectionOfSizesInAnytime = 1;
 /// How often robots that yield are asked to make way for one robot. It may be in a cycle with others after
 /// that, which changes of the order break.
 constexpr int kMostAsksForRobot = 5;
@@ -44,7 +33,7 @@ constexpr std::int64_t kMaxQuickExpansions = 20'000;
 constexpr std::int64_t kManyExpansions = 400'000;
 constexpr std::int64_t kFewExpansions = 500;
 constexpr double kGreedyWeight = 4.0;
-/// The weight in a dense crowd, where most robots are planned several times.
+/// The weight once a robot has failed: in crowds, most robots are planned several times.
 constexpr double kCrowdWeight = 2.0;
 /// Expansions for each robot after which all are planned at once, in steps. Disks that fill two fifths of the
 /// paper's crowds take up to 1200; in a warehouse with corridors of one cell, 600 robots take 8000.
@@ -59,12 +48,6 @@ SearchLimits quick_search(const Lattice& lattice) {
   limits.thorough = false;
   limits.max_expansions = std::max<std::int64_t>(kMaxQuickExpansions, lattice.vertex_count() / 2);
   return limits;
-}
-
-std::int64_t first_ejection(const Instance& instance, const PriorityOrder& order) {
-  if (!differ_in_size(instance, order)) return kFirstEjection;
-  const bool anytime = instance.options().mode == PlanOptions::Mode::anytime;
-  return anytime ? kFirstEjectionOfSizesInAnytime : kFirstEjectionOfSizes;
 }
 
 /// The maximum number of robots outside a cycle whose ranks are shuffled along with it.
@@ -82,7 +65,6 @@ class Repair {
         stop_(stop),
         progress_(progress),
         on_stop_(on_stop),
-        first_ejection_(first_ejection(state.instance(), order_)),
         rank_(state.instance().size(), 0),
         lowest_rank_(static_cast<std::int64_t>(order_.size())),
         failures_(state.instance().size(), 0),
@@ -106,9 +88,8 @@ class Repair {
   /// Plans in steps would give up all plans that are kept.
   void do_without_steps() { tried_steps_ = true; }
 
-  std::optional<OrderingResult> run(std::int64_t max_failures) {
+  OrderingResult run() {
     while (!pending_.empty() && goes_on()) {
-      if (result_.attempts > max_failures) return std::nullopt;
       if (is_stuck() && plans_all_in_steps()) break;
       progress_.update();
       const std::size_t robot = pending_.begin()->second;
@@ -140,7 +121,7 @@ class Repair {
 
  private:
   bool goes_on() {
-    state_.relieve_memory();
+    state_.memory().relieve();
     return !stop_.met() || (on_stop_ && on_stop_(unsolved(), result_.given_up));
   }
 
@@ -181,27 +162,24 @@ class Repair {
     std::erase_if(conflicting, [&](std::size_t other) { return !reservations_.trajectory(other); });
     if (ejects(robot)) {  // the ejected robots are planned next
       for (const std::size_t other : conflicting) rank_[other] = --highest_rank_;
-    } else if (!conflicting.empty() && failures_[robot] > kFailuresBeforeShuffle) {
+    } else if (!conflicting.empty()) {
       conflicting = shuffle_ranks(robot, std::move(conflicting));
     }
     for (const std::size_t other : conflicting) postpone(other);
   }
 
   /// Whether others are ejected for this robot, which failed.
-  bool ejects(std::size_t robot) const { return is_crowded() && failures_[robot] <= kMaxEjectionsForRobot; }
-  bool is_crowded() const { return result_.attempts > first_ejection_; }
+  bool ejects(std::size_t robot) const { return failures_[robot] <= kMaxEjectionsForRobot; }
+  /// Whether a robot has failed.
+  bool is_crowded() const { return result_.attempts > 1; }
 
   SearchLimits quick_search_of(std::size_t robot) const {
     return quick_search(state_.instance().lattice(robot));
   }
 
   SearchResult plan_quickly(std::size_t robot) {
-    if (is_crowded()) {
-      SearchLimits limits = quick_search_of(robot);
-      limits.heuristic_weight = kCrowdWeight;
-      return state_.plan(robot, limits, stop_);
-    }
     SearchLimits limits = quick_search_of(robot);
+    if (is_crowded()) limits.heuristic_weight = kCrowdWeight;
     if (state_.expansions() < kManyExpansions) return state_.plan(robot, limits, stop_);
     limits.max_expansions = kFewExpansions;
     SearchResult result = state_.plan(robot, limits, stop_);
@@ -314,7 +292,7 @@ class Repair {
     return ejection_.plan(robot, planned_robots([](std::size_t) { return true; }), failures_);
   }
 
-  /// Plans a robot among fewer others: steps 1 and 2 of repair(). Smaller robots are ignored before larger
+  /// Plans a robot among fewer others; see repair_all(). Smaller robots are ignored before larger
   /// ones, as they find another path more easily.
   SearchResult plan_among_fewer(std::size_t robot) {
     const double radius = state_.instance().motion(robot).pair_radius;
@@ -333,11 +311,10 @@ class Repair {
       SearchResult result = state_.plan_ignoring(lower_or_smaller, robot, quick_search_of(robot), stop_);
       if (!has_failed(robot, result)) return result;
     }
-    if (failures_[robot] > kFailuresBeforeShuffle) {  // a delay gives the others time to get out of its way
-      SearchResult result = state_.plan_ignoring(
-          all, robot, {.start_delay = random_start_delay(state_.instance(), order_, random_)}, stop_);
-      if (!has_failed(robot, result)) return result;
-    }
+    // A delay gives the others time to get out of its way.
+    const double delay = random_start_delay(state_.instance(), order_, random_);
+    SearchResult result = state_.plan_ignoring(all, robot, {.start_delay = delay}, stop_);
+    if (!has_failed(robot, result)) return result;
     return state_.plan_ignoring(all, robot, {}, stop_);
   }
 
@@ -355,7 +332,7 @@ class Repair {
   /// Breaks a cycle: the robots that conflict with `robot`, and the more others the longer the cycle lasts,
   /// exchange their ranks at random. Returns all of them.
   std::vector<std::size_t> shuffle_ranks(std::size_t robot, std::vector<std::size_t> robots) {
-    int extra = std::min(failures_[robot] - kFailuresBeforeShuffle, kMaxExtraRobots);
+    int extra = std::min(failures_[robot] - kMaxEjectionsForRobot, kMaxExtraRobots);
     for (; extra > 0; --extra) {
       const std::size_t other = order_[random_.below(order_.size())];
       const bool known = std::find(robots.begin(), robots.end(), other) != robots.end();
@@ -386,7 +363,6 @@ class Repair {
   const StopCondition& stop_;
   ProgressReport& progress_;
   const OnStop& on_stop_;
-  const std::int64_t first_ejection_;
   std::vector<std::int64_t> rank_;  // by robot; a smaller rank is a higher priority
   std::int64_t highest_rank_ = 0;
   std::int64_t lowest_rank_;
@@ -401,62 +377,14 @@ class Repair {
   OrderingResult result_;
 };
 
-/// The failed attempts after which it is faster to start again with larger robots first: measured in the
-/// paper's hall with rectangles and 240 to 300 robots, where 10 to 20 made no difference.
-constexpr std::int64_t kMaxFailures = 15;
-constexpr auto kAnyNumber = std::numeric_limits<std::int64_t>::max();
-
-PriorityOrder larger_first(const Instance& instance, PriorityOrder order) {
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return instance.motion(a).pair_radius > instance.motion(b).pair_radius;
-  });
-  return order;
-}
-
-/// The failures of another first plan after which it is given up, and its share of the time.
-constexpr std::int64_t kMaxFailuresByTime = 60;
-constexpr double kShareByTime = 0.5;
-
-/// The sum of the shares of all robots in the objective; none if one of them has no trajectory, or if it is
-/// no sum.
-std::optional<double> objective_of(const FleetReservations& reservations, const PriorityOrder& order) {
-  const Instance& instance = reservations.instance();
-  const PlanOptions::Objective objective = instance.options().objective;
-  if (objective == PlanOptions::Objective::makespan) return std::nullopt;
-  double sum = 0.0;
-  for (const std::size_t robot : order) {
-    if (!reservations.trajectory(robot)) return std::nullopt;
-    sum += share_of(instance.robot(robot), objective, *reservations.trajectory(robot));
-  }
-  return sum;
-}
-
-/// Plans everything anew with those first who arrive first. Such plans take several times the effort, but
-/// small fast robots do not wait for large slow ones. Improvement begins with the better one of the two.
-void plan_by_time_if_better(PlanState& state, const PriorityOrder& order, OrderingResult& result,
-                            Random& random, const StopCondition& stop, ProgressReport& progress) {
-  FleetReservations& reservations = state.reservations();
-  const std::optional<double> objective = objective_of(reservations, order);
-  if (!objective || stop.met()) return;
-  const FleetReservations::Snapshot before = reservations.snapshot();
-  const StopCondition part = after_share(stop, kShareByTime);
-  for (const std::size_t robot : order) reservations.remove(robot);
-  const auto other =
-      repair(state, order_by_time(state.instance(), order), kMaxFailuresByTime, random, part, progress);
-  result.attempts += other ? other->attempts : kMaxFailuresByTime;
-  result.cut_off = part.met();
-  const std::optional<double> others = objective_of(reservations, order);
-  if (!other || !others || *others >= *objective) reservations.restore(before);
-}
-
 }  // namespace
 
-std::optional<OrderingResult> repair(PlanState& state, const PriorityOrder& order, std::int64_t max_failures,
-                                     Random& random, const StopCondition& stop, ProgressReport& progress,
-                                     const OnStop& on_stop) {
+OrderingResult repair_all(PlanState& state, const PriorityOrder& order, Random& random,
+                          const StopCondition& stop, ProgressReport& progress, const OnStop& on_stop) {
+  progress.next_attempt();
   Repair repair(state, order, random, stop, progress, on_stop);
   repair.postpone_all();
-  return repair.run(max_failures);
+  return repair.run();
 }
 
 OrderingResult repair_around(PlanState& state, const PriorityOrder& order, Random& random,
@@ -465,30 +393,7 @@ OrderingResult repair_around(PlanState& state, const PriorityOrder& order, Rando
   Repair repair(state, order, random, stop, progress, on_stop);
   repair.postpone_those_without_trajectory();
   repair.do_without_steps();
-  return *repair.run(std::numeric_limits<std::int64_t>::max());
-}
-
-OrderingResult repair_or_restart(PlanState& state, const PriorityOrder& order, Random& random,
-                                 const StopCondition& stop, ProgressReport& progress, const OnStop& on_stop) {
-  progress.next_attempt();
-  if (!differ_in_size(state.instance(), order)) {
-    return *repair(state, order, kAnyNumber, random, stop, progress, on_stop);
-  }
-  if (auto result = repair(state, order, kMaxFailures, random, stop, progress, on_stop))
-    return std::move(*result);
-  const PriorityOrder second = larger_first(state.instance(), order);
-  OrderingResult result = *repair(state, second, kAnyNumber, random, stop, progress, on_stop);
-  result.attempts += kMaxFailures;
-  if (state.instance().options().mode == PlanOptions::Mode::anytime) {
-    plan_by_time_if_better(state, order, result, random, stop, progress);
-  }
-  return result;
-}
-
-OrderingResult repair_once(PlanState& state, const PriorityOrder& order, Random& random,
-                           const StopCondition& stop, ProgressReport& progress) {
-  progress.next_attempt();
-  return *repair(state, order, kAnyNumber, random, stop, progress);
+  return repair.run();
 }
 
 }  // namespace fleetplan::core

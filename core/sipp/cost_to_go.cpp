@@ -124,14 +124,21 @@ class CostToGo::BackwardSearch {
     return n.seconds < kForever;
   }
 
+  std::vector<int> way(int vertex) {
+    if (vertices_.any_angle() && goal_in_sight(vertex) && !is_slowed(vertex, goal_)) return {goal_};
+    std::vector<int> way;
+    // Bounded: the way has been found.
+    for (int here = vertex; here != goal_ && node(here).state == State::closed; here = way.back()) {
+      way.push_back(node(here).next);
+    }
+    return way;
+  }
+
   double metres(int vertex) {
     double length = 0.0;
-    const bool is_straight = vertices_.any_angle() && goal_in_sight(vertex) && !is_slowed(vertex, goal_);
-    // Bounded: the way has been found.
-    for (int here = vertex; here != goal_;) {
-      const int next = is_straight ? goal_ : node(here).next;
-      length += vertices_.between(here, next).length;
-      here = next;
+    for (const int next : way(vertex)) {
+      length += vertices_.between(vertex, next).length;
+      vertex = next;
     }
     return length;
   }
@@ -393,6 +400,8 @@ CostToGo::CostToGo(const Vertices& vertices, std::size_t goal)
 CostToGo::~CostToGo() = default;
 
 void CostToGo::replace_start() { search_->replace_start(); }
+
+std::vector<int> CostToGo::way(int vertex) { return search_->way(vertex); }
 
 double CostToGo::metres(int vertex) { return search_->metres(vertex); }
 

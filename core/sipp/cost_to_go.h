@@ -107,7 +107,10 @@ class CostToGo {
   /// or if `stop` is met first.
   std::optional<bool> reaches(int vertex, std::int64_t max_expansions, const StopCondition& stop);
 
-  /// The length of the way that from() has estimated for a vertex and that exists, metres.
+  /// The way that from() has estimated for a vertex and that exists: the vertices at which its translations
+  /// end, the goal last; none if `stop` was met before it was found.
+  std::vector<int> way(int vertex);
+  /// Its length, metres.
   double metres(int vertex);
 
   /// Expansions of the backward search so far.

@@ -346,7 +346,7 @@ Problem crowded_hall() {
 TEST(Planner, PlansInOtherOrdersWhatTheFirstOneGaveUp) {
   PlanOptions options;
   options.wait_before_move = 5.0;
-  options.seed = 20;
+  options.seed = 31;
   const Problem problem = crowded_hall();
   const Plan plan =
       checked_plan(problem, options, StopCondition(StopCondition::Clock::now() + std::chrono::minutes(20)));

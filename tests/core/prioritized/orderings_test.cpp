@@ -34,14 +34,6 @@ TEST(InitialOrder, IsByDistanceOrAsListed) {
   EXPECT_EQ(first_order(Priority::as_listed), (PriorityOrder{0, 1, 2, 3, 4}));
 }
 
-TEST(OrderByTime, FastAndHeavyRobotsComeSooner) {
-  Robot heavy = robot_at(1, 5).to(6, 5);
-  heavy.weight = 10.0;
-  const Planning p(OccupancyGrid(10, 10, 1.0),
-                   {robot_at(1, 1).to(4, 1), robot_at(1, 3).to(5, 3).speeds(2.0, 1.0), heavy});
-  EXPECT_EQ(order_by_time(p.instance, p.movers()), (PriorityOrder{2, 1, 0}));
-}
-
 TEST(InitialOrder, WithAHorizonTheOldestGoalComesFirst) {
   const auto order_with = [](double age, double other_age, std::optional<double> horizon) {
     PlanOptions options;

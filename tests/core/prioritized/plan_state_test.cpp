@@ -100,12 +100,12 @@ TEST(PlanState, GivesUpWhatSearchesKeepWhenMemoryIsShort) {
   ASSERT_TRUE(p.state.plan(0, {}, p.never).trajectory);
   const std::int64_t with_caches = account.used();
 
-  p.state.relieve_memory();
+  p.state.memory().relieve();
   EXPECT_EQ(account.used(), with_caches) << "memory is not short";
 
   const std::vector<char> others(kLimit * 3 / 4 - static_cast<std::size_t>(with_caches) + 100'000);
   ASSERT_TRUE(account.is_short());
-  p.state.relieve_memory();
+  p.state.memory().relieve();
   EXPECT_FALSE(account.is_short());
 }
 

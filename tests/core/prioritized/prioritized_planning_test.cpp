@@ -53,8 +53,16 @@ TEST(Prioritized, NeedsOneAttemptWhereTheFirstOrderWorks) {
   expect_safe(p.reservations);
 }
 
-TEST(Prioritized, RaisesTheRobotThatFailed) {
+TEST(Prioritized, NeedsOneAttemptWhereAGoalIsOnTheWayOfOthers) {
   Doorway p(Priority::shortest_first, Reordering::raise_failed);
+  const auto result = run(p);
+  EXPECT_TRUE(result.unplanned.empty());
+  EXPECT_EQ(result.attempts, 1);
+  expect_safe(p.reservations);
+}
+
+TEST(Prioritized, RaisesTheRobotThatFailed) {
+  Doorway p(Priority::as_listed, Reordering::raise_failed);
   const auto result = run(p);
   EXPECT_TRUE(result.unplanned.empty());
   EXPECT_EQ(result.attempts, 2);
@@ -62,7 +70,7 @@ TEST(Prioritized, RaisesTheRobotThatFailed) {
 }
 
 TEST(Prioritized, TriesRandomOrders) {
-  Doorway p(Priority::shortest_first, Reordering::random);
+  Doorway p(Priority::as_listed, Reordering::random);
   const auto result = run(p);
   EXPECT_TRUE(result.unplanned.empty());
   EXPECT_GE(result.attempts, 2);
@@ -152,7 +160,7 @@ TEST(Prioritized, TriesOtherOrdersAfterARobotWasGivenUp) {
   Planning p = two_in_a_corridor();
   Planning once = two_in_a_corridor();
   const OrderingResult first =
-      repair_or_restart(once.state, {0, 1, 2, 3, 4}, once.random, once.never, once.progress);
+      repair_all(once.state, {0, 1, 2, 3, 4}, once.random, once.never, once.progress);
   const auto result = run(p);
   EXPECT_EQ(robots_of(result), (Robots{0, 1})) << "each is in the other's way";
   EXPECT_GT(result.attempts, 2 * first.attempts);

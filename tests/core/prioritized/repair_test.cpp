@@ -25,7 +25,7 @@ Planning blocked_entrance() {
 TEST(Repair, RaisesAFailedRobotAndReplansOnlyConflictingRobots) {
   Planning p = blocked_entrance();
   Random random(7);
-  const OrderingResult result = repair_or_restart(p.state, {2, 0, 1}, random, p.never, p.progress);
+  const OrderingResult result = repair_all(p.state, {2, 0, 1}, random, p.never, p.progress);
   EXPECT_TRUE(result.unsolved.empty());
   EXPECT_TRUE(result.given_up.empty());
   EXPECT_EQ(result.attempts, 2) << "robot 1 failed once";
@@ -42,7 +42,7 @@ TEST(Repair, GivesUpARobotWithoutAPathAmongRobotsThatStay) {
              {robot_at(4.5, 1.5), robot_at(0.5, 1.5).to(8.5, 1.5), robot_at(8.5, 0.5).to(5.5, 0.5)});
   p.reservations.stay_in_place(0);
   Random random(7);
-  const OrderingResult result = repair_or_restart(p.state, {1, 2}, random, p.never, p.progress);
+  const OrderingResult result = repair_all(p.state, {1, 2}, random, p.never, p.progress);
   EXPECT_EQ(result.given_up, Robots{1});
   EXPECT_TRUE(result.unsolved.empty());
   EXPECT_TRUE(p.reservations.trajectory(2));
@@ -55,7 +55,7 @@ TEST(Repair, BreaksACycleOfRaisedRobotsByAStartDelay) {
                                  "........."}),
              {robot_at(0.5, 0.5).to(8.5, 0.5), robot_at(8.5, 0.5, 3.0).to(0.5, 0.5)});
   Random random(7);
-  const OrderingResult result = repair_or_restart(p.state, {0, 1}, random, p.never, p.progress);
+  const OrderingResult result = repair_all(p.state, {0, 1}, random, p.never, p.progress);
   EXPECT_TRUE(result.unsolved.empty());
   EXPECT_GT(result.attempts, 4) << "a delay is tried only after several failures";
   expect_safe(p.reservations);
@@ -70,31 +70,10 @@ TEST(Repair, GivesUpARobotThatKeepsFailing) {
       {robot_at(0.5, 2.5).to(6.5, 2.5), robot_at(6.5, 2.5, 3.0).to(0.5, 2.5), robot_at(0.5, 0.5).to(4.5, 0.5),
        robot_at(1.5, 0.5).to(6.5, 0.5), robot_at(3.5, 0.5).to(8.5, 0.5)});
   Random random(7);
-  const OrderingResult result = repair_or_restart(p.state, {0, 1, 2, 3, 4}, random, p.never, p.progress);
+  const OrderingResult result = repair_all(p.state, {0, 1, 2, 3, 4}, random, p.never, p.progress);
   EXPECT_TRUE(result.unsolved.empty());
   EXPECT_EQ(result.given_up, (Robots{1, 0})) << "each blocks the other";
   for (const std::size_t robot : {2u, 3u, 4u}) EXPECT_TRUE(p.reservations.trajectory(robot));
-  expect_safe(p.reservations);
-}
-
-TEST(Repair, StartsAgainWithLargerRobotsFirstAfterManyFailures) {
-  // Robots 0 and 1 cannot change places; 2, the smallest, and 3 would meet in the middle of the hall.
-  Planning p(
-      support::ascii_map({".......##",  //
-                          "#########",  //
-                          ".........",  //
-                          ".........",  //
-                          ".........",  //
-                          ".........",  //
-                          "........."}),
-      {robot_at(0.5, 6.5).to(6.5, 6.5), robot_at(6.5, 6.5, 3.0).to(0.5, 6.5),
-       robot_at(2.5, 2.5).to(8.5, 2.5).radius(0.2), robot_at(4.5, 4.5, -1.5707963267948966).to(4.5, 0.5)});
-  Random random(7);
-  const OrderingResult result = repair_or_restart(p.state, {0, 1, 2, 3}, random, p.never, p.progress);
-  EXPECT_EQ(result.given_up.size(), 2u);
-  ASSERT_TRUE(p.reservations.trajectory(2) && p.reservations.trajectory(3));
-  EXPECT_NEAR(p.reservations.trajectory(3)->cost, 4.0, 1e-9);
-  EXPECT_GT(p.reservations.trajectory(2)->cost, 6.1) << "planned later, although listed before";
   expect_safe(p.reservations);
 }
 
@@ -120,7 +99,7 @@ TEST(Repair, PlansACrowdThatFillsTwoFifthsOfTheFloor) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     Planning p(OccupancyGrid(12, 12, 1.0), crowd(12, 12, 58, seed));
     Random random(7);
-    const OrderingResult result = repair_or_restart(p.state, p.movers(), random, p.never, p.progress);
+    const OrderingResult result = repair_all(p.state, p.movers(), random, p.never, p.progress);
     EXPECT_TRUE(result.unsolved.empty()) << "seed " << seed;
     EXPECT_TRUE(result.given_up.empty()) << "seed " << seed;
     EXPECT_EQ(p.reservations.planned_count(), 58u) << "seed " << seed;
@@ -129,71 +108,10 @@ TEST(Repair, PlansACrowdThatFillsTwoFifthsOfTheFloor) {
   }
 }
 
-/// Slow large robots and fast small ones in two rooms with a gate.
-Planning mixed_fleet(std::uint64_t seed, PlanOptions::Objective objective) {
-  constexpr int kColumns = 12, kRows = 6;
-  support::Dice dice(seed);
-  OccupancyGrid grid(2 * kColumns, 2 * kRows, 1.0);
-  for (int row = 0; row < grid.rows(); ++row) {
-    if (row != 4 && row != 5 && row != 6) grid.block({kColumns, row});
-  }
-  const auto places = [&] {
-    std::vector<Position> all;
-    for (int k = 0; k < kColumns * kRows; ++k) {
-      if (k % kColumns != kColumns / 2) all.emplace_back(2 * (k % kColumns) + 1.0, 2 * (k / kColumns) + 1.0);
-    }
-    for (std::size_t k = 0; k + 1 < all.size(); ++k) {
-      std::swap(all[k], all[k + static_cast<std::size_t>(dice.below(static_cast<int>(all.size() - k)))]);
-    }
-    return all;
-  };
-  const std::vector<Position> starts = places();
-  const std::vector<Position> goals = places();
-  std::vector<Robot> robots;
-  for (std::size_t k = 0; k < 36; ++k) {
-    const bool is_large = k % 2 == 0;
-    robots.push_back(robot_at(starts[k].x(), starts[k].y())
-                         .to(goals[k].x(), goals[k].y())
-                         .radius(is_large ? 0.9 : 0.3)
-                         .speeds(is_large ? 0.5 : 1.5, 3.0));
-  }
-  PlanOptions options;
-  options.mode = PlanOptions::Mode::anytime;
-  options.objective = objective;
-  return Planning(std::move(grid), std::move(robots), options);
-}
-
-/// The flowtime of the first plan; for the makespan, there is only the usual one.
-double first_flowtime(std::uint64_t seed, PlanOptions::Objective objective) {
-  Planning p = mixed_fleet(seed, objective);
-  const OrderingResult result = repair_or_restart(p.state, p.movers(), p.random, p.never, p.progress);
-  expect_safe(p.reservations);
-  EXPECT_FALSE(result.cut_off);
-  double sum = 0.0;
-  for (const std::size_t robot : p.movers()) {
-    if (p.reservations.trajectory(robot)) sum += p.reservations.trajectory(robot)->cost;
-  }
-  return sum;
-}
-
-TEST(Repair, BeginsTheImprovementWithTheBetterOneOfTwoPlans) {
-  using Objective = PlanOptions::Objective;
-  int better = 0;
-  for (const std::uint64_t seed : {0, 11, 26, 53, 77}) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    const double usual = first_flowtime(seed, Objective::makespan);
-    const double chosen = first_flowtime(seed, Objective::flowtime);
-    EXPECT_LE(chosen, usual + 1e-9);
-    if (chosen < usual - 1e-9) ++better;
-    EXPECT_EQ(first_flowtime(seed, Objective::flowtime), chosen) << "the same for a seed";
-  }
-  EXPECT_GT(better, 0);
-}
-
 TEST(Repair, ReturnsUnsolvedRobotsByPriorityWhenStopped) {
   Planning p = blocked_entrance();
   Random random(7);
-  const OrderingResult result = repair_or_restart(p.state, {2, 0, 1}, random, met(), p.progress);
+  const OrderingResult result = repair_all(p.state, {2, 0, 1}, random, met(), p.progress);
   EXPECT_EQ(result.unsolved, (Robots{2, 0, 1}));
   EXPECT_TRUE(result.cut_off);
 }

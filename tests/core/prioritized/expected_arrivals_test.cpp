@@ -1,0 +1,103 @@
+#include "core/prioritized/expected_arrivals.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+
+#include "tests/core/support/planning.h"
+
+namespace fleetplan::core {
+namespace TEST_FILE {
+
+using support::ascii_map;
+using support::robot_at;
+
+PriorityOrder order_of(Planning& p) { return order_by_expected_arrival(p.state, p.movers(), p.never); }
+
+TEST(ExpectedArrivals, ComeByTheLengthOfTheWayAndNotOfTheLine) {
+  Planning p(maze(), {robot_at(5.5, 3.5).to(5.5, 5.5), robot_at(20.5, 0.5).to(8.5, 0.5)});
+  EXPECT_EQ(order_of(p), (PriorityOrder{1, 0})) << "2 m along the line, and more than 40 m around a wall";
+}
+
+TEST(ExpectedArrivals, OfFastAndHeavyRobotsComeSooner) {
+  Robot heavy = robot_at(1, 5).to(6, 5);
+  heavy.weight = 10.0;
+  Planning p(OccupancyGrid(10, 10, 1.0),
+             {robot_at(1, 1).to(4, 1), robot_at(1, 3).to(4, 3).speeds(2.0, 1.0), heavy});
+  EXPECT_EQ(order_of(p), (PriorityOrder{2, 1, 0}));
+}
+
+TEST(ExpectedArrivals, IncludeServicesAndGoalsBefore) {
+  Robot waits = robot_at(0.5, 0.5).to(2.5, 0.5);
+  waits.goal->service = 20.0;
+  Robot visits = robot_at(0.5, 2.5).to(2.5, 2.5);
+  visits.via.push_back({{8.5, 2.5}});
+  Planning p(OccupancyGrid(10, 5, 1.0), {waits, visits, robot_at(0.5, 4.5).to(9.5, 4.5)});
+  EXPECT_EQ(order_of(p), (PriorityOrder{2, 1, 0})) << "9 s, 14 s and turns, and 22 s";
+}
+
+TEST(ExpectedArrivals, AreAfterThoseWhoHaveNoOtherWay) {
+  // Robot 0 would be at its goal in the corridor before robot 1 passes there.
+  Planning p(ascii_map({"....########....",  //
+                        "................",  //
+                        "....########...."}),
+             {robot_at(3.5, 2.5).to(5.5, 1.5), robot_at(0.5, 1.5).to(15.5, 1.5)});
+  EXPECT_EQ(order_of(p), (PriorityOrder{1, 0}));
+}
+
+TEST(ExpectedArrivals, AreNotDelayedByThoseWhoLoseLittleOnAnotherWay) {
+  // The way through the lower corridor is as long, but for a few metres.
+  Planning p(ascii_map({"....########....",  //
+                        "................",  //
+                        "....########....",  //
+                        "................",  //
+                        "....########...."}),
+             {robot_at(3.5, 4.5).to(5.5, 3.5), robot_at(0.5, 3.5).to(15.5, 3.5)});
+  EXPECT_EQ(order_of(p), (PriorityOrder{0, 1}));
+}
+
+TEST(ExpectedArrivals, CountTheWeightOfThoseWhoWait) {
+  // The other way takes 10 m more, which is worth it only for a heavy robot that would wait 5 s.
+  const auto order_with = [](double weight) {
+    Robot waits = robot_at(1.5, 4.5).to(5.5, 5.5);
+    waits.weight = weight;
+    Planning p(ascii_map({"................",  //
+                          "...##########...",  //
+                          "...##########...",  //
+                          "...##########...",  //
+                          "...##########...",  //
+                          "................"}),
+               {waits, robot_at(0.5, 5.5).to(15.5, 5.5)});
+    return order_of(p);
+  };
+  EXPECT_EQ(order_with(1.0), (PriorityOrder{1, 0}));
+  EXPECT_EQ(order_with(4.0), (PriorityOrder{0, 1}));
+}
+
+TEST(ExpectedArrivals, AreDelayedByNobodyWhereTheRobotMakesWay) {
+  Robot idle = robot_at(5.5, 1.5);
+  idle.let_yield();
+  Planning p(ascii_map({"....########....",  //
+                        "................",  //
+                        "....########...."}),
+             {robot_at(0.5, 1.5).to(15.5, 1.5), idle});
+  EXPECT_EQ(order_of(p), (PriorityOrder{1, 0})) << "it has arrived, and leaves when it is asked to";
+}
+
+TEST(ExpectedArrivals, OfRobotsWithoutAWayComeFirst) {
+  Planning p(ascii_map({"...#....",  //
+                        "...#....",  //
+                        "...#...."}),
+             {robot_at(4.5, 0.5).to(5.5, 0.5), robot_at(0.5, 1.5).to(7.5, 1.5)});
+  EXPECT_EQ(order_of(p), (PriorityOrder{1, 0}));
+}
+
+TEST(ExpectedArrivals, LeaveTheOrderAsItIsWhenStopped) {
+  Planning p(OccupancyGrid(10, 5, 1.0), {robot_at(0.5, 0.5).to(8.5, 0.5), robot_at(0.5, 2.5).to(2.5, 2.5)});
+  EXPECT_EQ(order_by_expected_arrival(p.state, {0, 1}, met()), (PriorityOrder{0, 1}));
+  EXPECT_EQ(order_by_expected_arrival(p.state, {0, 1}, p.never), (PriorityOrder{1, 0}));
+}
+
+}  // namespace TEST_FILE
+}  // namespace fleetplan::core
