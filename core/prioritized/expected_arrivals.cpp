@@ -58,9 +58,9 @@ class ExpectedArrivals {
 
   /// Returns the robots in their order; none if `stop` is met first.
   std::optional<PriorityOrder> order(const StopCondition& stop) {
-    // The search spaces that are made last are kept longest: those of the robots that are planned first.
-    for (auto robot = robots_.rbegin(); robot != robots_.rend(); ++robot) {
-      if (stop.met() || !find_way_alone(*robot, stop)) return std::nullopt;
+    for (std::size_t k = 0; k < robots_.size(); ++k) {
+      if (stop.met() || !find_way_alone(robots_[k], stop)) return std::nullopt;
+      state_.memory().expect_use(robots_[k], static_cast<std::int64_t>(k));
     }
     PriorityOrder order = robots_;
     const auto rank = [&](std::size_t robot) {
@@ -68,8 +68,10 @@ class ExpectedArrivals {
     };
     std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return rank(a) < rank(b); });
     std::vector<PriorityOrder> passing(instance_.size());  // by robot: those who pass its goal
-    for (const std::size_t robot : order) {
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      const std::size_t robot = order[k];
       if (stop.met() || !choose_way(robot, stop)) return std::nullopt;
+      state_.memory().expect_use(robot, static_cast<std::int64_t>(k));
       for (const Passage& passage : expected_[robot].passages) {
         if (!delays(passage)) continue;
         passing[passage.other].push_back(robot);

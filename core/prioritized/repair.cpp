@@ -99,6 +99,7 @@ class Repair {
       if (is_held_up(robot, result) && passes_yielding(robot, result)) continue;
       if (result.trajectory) {
         reservations_.follow(robot, std::move(*result.trajectory));
+        state_.memory().expect_use(robot, SearchMemory::kHardlyEver);
         continue;
       }
       if (has_failed(robot, result)) {

@@ -9,10 +9,10 @@ namespace {
 /// The most memory for the search spaces of all robots.
 constexpr std::size_t kMaxBytes = std::size_t{384} << 20;
 
-/// Whether so many bytes are too much to keep. Half of the job's memory is for the rest.
-bool is_too_much(std::size_t bytes) {
+/// Whether the job will soon be short of memory (MemoryAccount), which ends searches.
+bool is_nearly_short() {
   const MemoryAccount* account = MemoryScope::current();
-  return bytes >= kMaxBytes || (account != nullptr && account->used() > account->limit() / 2);
+  return account != nullptr && account->used() > account->limit() / 16 * 11;
 }
 
 }  // namespace
@@ -20,21 +20,22 @@ bool is_too_much(std::size_t bytes) {
 SearchSpaces::SearchSpaces(const Instance& instance) : instance_(instance), entries_(instance.size()) {}
 
 SearchSpace* SearchSpaces::of(std::size_t robot, const StopCondition& stop) {
-  if (!entries_[robot].space) {
-    make_room();
+  Entry& entry = entries_[robot];
+  entry.last_use = ++calls_;
+  if (!entry.space || is_nearly_short()) make_room();
+  if (!entry.space) {
     auto made = std::make_unique<SearchSpace>(instance_, robot, stop);
     if (!made->finished()) return nullptr;
-    entries_[robot].space = std::move(made);
+    entry.space = std::move(made);
   }
-  entries_[robot].last_use = ++calls_;
-  return entries_[robot].space.get();
+  return entry.space.get();
 }
 
 void SearchSpaces::discard_all() {
   for (Entry& entry : entries_) entry.space.reset();
 }
 
-/// Discards half of what is kept if it is too much.
+/// Discards an eighth of what is kept if it is too much, but not the space that was used last.
 void SearchSpaces::make_room() {
   std::size_t bytes = 0;
   std::vector<Entry*> kept;
@@ -43,12 +44,12 @@ void SearchSpaces::make_room() {
     bytes += entry.space->bytes();
     kept.push_back(&entry);
   }
-  if (!is_too_much(bytes)) return;
+  if (bytes < kMaxBytes && !is_nearly_short()) return;
   std::sort(kept.begin(), kept.end(),
             [](const Entry* a, const Entry* b) { return a->last_use < b->last_use; });
-  const std::size_t enough = bytes / 2;
+  const std::size_t enough = bytes - bytes / 8;
   for (Entry* entry : kept) {
-    if (bytes <= enough) return;
+    if (bytes <= enough || entry->last_use == calls_) return;
     bytes -= entry->space->bytes();
     entry->space.reset();
   }

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <new>
 #include <vector>
@@ -17,8 +18,9 @@
 
 namespace fleetplan::core {
 
-/// The search spaces of the robots, kept from search to search as far as there is memory: those used least
-/// recently are discarded, and computed again when they are needed.
+/// The search spaces of the robots, kept from search to search as far as there is memory. Others are
+/// discarded, and computed again when they are needed: those first that are expected to be used last, then
+/// those used least recently.
 class SearchSpaces {
  public:
   /// `instance` outlives this object.
@@ -27,12 +29,14 @@ class SearchSpaces {
   /// Returns the search space of a robot, valid until the next call for another robot; null if `stop` is met
   /// before it is made.
   SearchSpace* of(std::size_t robot, const StopCondition& stop);
+  /// Tells after how many uses of others the space of a robot will be used next. Holds until then.
+  void expect_use(std::size_t robot, std::int64_t uses) { entries_[robot].last_use = -uses; }
   void discard_all();
 
  private:
   struct Entry {
     std::unique_ptr<SearchSpace> space;
-    std::int64_t last_use = 0;  // the number of the last call for it
+    std::int64_t last_use = 0;  // the number of the last call for it; < 0: see expect_use()
   };
 
   void make_room();
@@ -52,6 +56,10 @@ class SearchMemory {
   /// Returns the search space of a robot, valid until the next call for another robot; null if `stop` is met
   /// before it is made.
   SearchSpace* space_of(std::size_t robot, const StopCondition& stop) { return spaces_.of(robot, stop); }
+  /// Tells after how many uses of others the search space of a robot will be used next, so that others are
+  /// discarded before it, or it before others.
+  void expect_use(std::size_t robot, std::int64_t uses) { spaces_.expect_use(robot, uses); }
+  static constexpr std::int64_t kHardlyEver = std::numeric_limits<std::int64_t>::max();
   /// The search among the reservations of the table.
   AaSipp& search() { return search_; }
 

@@ -1,10 +1,12 @@
 #pragma once
 
-// Arrays, and a sort of vectors, beside those of the standard library.
+// Arrays, a heap, and a sort of vectors, beside those of the standard library.
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -87,6 +89,56 @@ class PagedArray {
 
   std::vector<std::unique_ptr<Book>> books_;
   std::size_t pages_ = 0;
+};
+
+/// A heap of items with keys, from which the least key is taken first; for searches whose keys hardly ever
+/// fall below the last one taken (radix heap; Ahuja, Mehlhorn, Orlin and Tarjan, JACM 1990). Faster than a
+/// binary heap, as an item is moved only when the keys before it are gone. Keys are at least 0. One that is
+/// less than the last one taken counts as equal to it. The order of equal keys is fixed, but arbitrary.
+template <class Item>
+class RadixHeap {
+ public:
+  bool empty() const { return size_ == 0; }
+
+  void push(float key, const Item& item) {
+    const auto bits = std::max(last_, std::bit_cast<std::uint32_t>(key));  // of floats >= 0, in their order
+    bucket_of(bits).push_back({bits, item});
+    ++size_;
+  }
+
+  /// Removes an item with the least key; there is one.
+  Item pop() {
+    if (buckets_[0].empty()) refill();
+    const Item item = buckets_[0].back().item;
+    buckets_[0].pop_back();
+    --size_;
+    return item;
+  }
+
+ private:
+  struct Entry {
+    std::uint32_t bits;
+    Item item;
+  };
+
+  /// By the highest bit in which a key differs from the last one taken.
+  std::vector<Entry>& bucket_of(std::uint32_t bits) {
+    return buckets_[static_cast<std::size_t>(std::bit_width(bits ^ last_))];
+  }
+
+  /// Takes the least key, and distributes the first bucket by it: each item comes to a lower one.
+  void refill() {
+    const auto bucket = std::find_if(buckets_.begin(), buckets_.end(), [](auto& b) { return !b.empty(); });
+    last_ = std::min_element(bucket->begin(), bucket->end(), [](const Entry& a, const Entry& b) {
+              return a.bits < b.bits;
+            })->bits;
+    for (const Entry& entry : *bucket) bucket_of(entry.bits).push_back(entry);
+    bucket->clear();
+  }
+
+  std::array<std::vector<Entry>, 33> buckets_;
+  std::uint32_t last_ = 0;  // the last key taken
+  std::size_t size_ = 0;
 };
 
 /// Items that stoppable_sort() sorts at once.

@@ -1,7 +1,9 @@
 #include "core/sipp/cost_to_go.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
+#include <queue>
 
 #include "core/geometry/tolerance.h"
 #include "core/sipp/vertices.h"
@@ -31,8 +33,7 @@ std::optional<bool> TimesFromStart::reach_goal(std::int64_t max_expansions, cons
     if (open_.empty()) return false;
     if (count >= max_expansions || (count % kTimesStopStride == 0 && stop.met())) return std::nullopt;
     ++expansions_;
-    const Open best = open_.top();
-    open_.pop();
+    const Open best = open_.pop();
     if (best.seconds > time(best.vertex)) continue;
     reached_goal_ = best.vertex == goal_;
     if (!reached_goal_) expand(best);
@@ -54,7 +55,7 @@ void TimesFromStart::expand(const Open& best) {
 
 void TimesFromStart::open(int vertex, float seconds) {
   time(vertex) = seconds;
-  open_.push({static_cast<float>(seconds + to_goal(vertex)), seconds, vertex});
+  open_.push(static_cast<float>(seconds + to_goal(vertex)), {seconds, vertex});
 }
 
 double TimesFromStart::to_goal(int vertex) const {
@@ -107,7 +108,7 @@ class CostToGo::BackwardSearch {
     const Node& n = node(vertex);
     if (!settle(vertex, stop)) return open_.empty() ? straight : via(vertex, goal_);
     if (straight.straight && straight.least() <= least(n, vertex)) return straight;
-    return {n.seconds, n.heading, straight.straight, reverse_seconds(vertex)};
+    return {n.seconds, heading(vertex), straight.straight, reverse_seconds(vertex)};
   }
 
   std::optional<bool> reaches(int vertex, std::int64_t max_expansions, const StopCondition& stop) {
@@ -152,7 +153,6 @@ class CostToGo::BackwardSearch {
   enum class State : std::uint8_t { unseen, open, closed };
   struct Node {
     double seconds = 0.0;
-    double heading = 0.0;
     std::int32_t next = -1;  // the vertex at which the first translation ends
     State state = State::unseen;
     bool sight_known = false;
@@ -166,6 +166,8 @@ class CostToGo::BackwardSearch {
   };
 
   Node& node(int vertex) { return nodes_[static_cast<std::size_t>(vertex)]; }
+  /// Of the first translation from a vertex that was reached, forwards.
+  double heading(int vertex) { return vertices_.between(vertex, node(vertex).next).heading; }
   double reverse_seconds(int vertex) {
     return motion_.may_reverse ? reverse_seconds_[static_cast<std::size_t>(vertex)] : kForever;
   }
@@ -289,9 +291,9 @@ CostToGo::Estimate CostToGo::BackwardSearch::via(int vertex, int next) {
     return estimate;
   }
   if (next != goal_) {
-    const Node& onward = node(next);
-    estimate.seconds += onward.seconds + motion_.rotation_time(estimate.heading, onward.heading);
-    const bool continues_straight = angle_between(estimate.heading, onward.heading) <= kSameHeading;
+    const double then = heading(next);
+    estimate.seconds += node(next).seconds + motion_.rotation_time(estimate.heading, then);
+    const bool continues_straight = angle_between(estimate.heading, then) <= kSameHeading;
     if (continues_straight) {  // both are one translation
       estimate.seconds -=
           motion_.wait_before_move + motion_.linear_inertia.loss(d.length, motion_.linear_speed);
@@ -314,11 +316,11 @@ void CostToGo::BackwardSearch::add_onward(Estimate& estimate, int next, double l
     return;
   }
   const Node& n = node(next);
-  const Estimate onward{n.seconds, n.heading, false, reverse_seconds(next)};
+  const Estimate onward{n.seconds, heading(next), false, reverse_seconds(next)};
   estimate.seconds = translation + onward.with_rotation(estimate.heading, motion_);
   estimate.reverse_seconds = translation + onward.with_rotation(back, motion_);
   const double once = motion_.wait_before_move + motion_.linear_inertia.loss(length, motion_.linear_speed);
-  if (once <= 0.0 || angle_between(estimate.heading, n.heading) > kSameHeading) return;
+  if (once <= 0.0 || angle_between(estimate.heading, onward.heading) > kSameHeading) return;
   // A translation that goes on is one.
   estimate.seconds = std::min(estimate.seconds, translation + onward.seconds - once);
   estimate.reverse_seconds = std::min(estimate.reverse_seconds, translation + onward.reverse_seconds - once);
@@ -327,7 +329,6 @@ void CostToGo::BackwardSearch::add_onward(Estimate& estimate, int next, double l
 /// Makes the translation to `next` the first one from the vertex.
 void CostToGo::BackwardSearch::set(Node& n, int vertex, int next, const Estimate& estimate) {
   n.seconds = estimate.seconds;
-  n.heading = estimate.heading;
   n.next = next;
   if (motion_.may_reverse) reverse_seconds_[static_cast<std::size_t>(vertex)] = estimate.reverse_seconds;
 }
@@ -357,7 +358,7 @@ void CostToGo::BackwardSearch::close(int vertex) {
   const bool free = n.next == goal_ ? goal_in_sight(vertex) : vertices_.in_sight(vertex, n.next);
   if (free) return;
   // Lazy Theta* (Nash, Koenig, Tovey, AAAI 2010): only now is it known that the shortcut is blocked.
-  set(n, vertex, n.next, {kForever, n.heading, false});
+  set(n, vertex, n.next, {kForever, 0.0, false});
   vertices_.for_each_neighbour(vertex, [&](int neighbour) {
     if (neighbour >= first_start_vertex_) return;
     if (neighbour != goal_ && node(neighbour).state != State::closed) return;

@@ -5,10 +5,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
-#include <queue>
 #include <vector>
 
 #include "core/geometry/position.h"
@@ -47,12 +45,8 @@ class TimesFromStart {
     float seconds = static_cast<float>(kForever);
   };
   struct Open {
-    float estimate;  // of the time by way of the vertex to the goal, seconds
     float seconds;
     std::int32_t vertex;
-    bool operator>(const Open& other) const {
-      return estimate != other.estimate ? estimate > other.estimate : vertex > other.vertex;
-    }
   };
 
   float& time(int vertex) { return times_[static_cast<std::size_t>(vertex)].seconds; }
@@ -64,7 +58,7 @@ class TimesFromStart {
   const int goal_;
   const Position goal_position_;
   PagedArray<Time> times_;  // of the fastest ways known
-  std::priority_queue<Open, std::vector<Open>, std::greater<>> open_;
+  RadixHeap<Open> open_;    // by the estimated time by way of the vertex to the goal, seconds
   std::int64_t expansions_ = 0;
   bool reached_goal_ = false;
 };

@@ -32,7 +32,7 @@ TEST(ExpectedArrivals, IncludeServicesAndGoalsBefore) {
   Robot waits = robot_at(0.5, 0.5).to(2.5, 0.5);
   waits.goal->service = 20.0;
   Robot visits = robot_at(0.5, 2.5).to(2.5, 2.5);
-  visits.via.push_back({{8.5, 2.5}});
+  visits.via.push_back({{8.5, 2.5}, std::nullopt});
   Planning p(OccupancyGrid(10, 5, 1.0), {waits, visits, robot_at(0.5, 4.5).to(9.5, 4.5)});
   EXPECT_EQ(order_of(p), (PriorityOrder{2, 1, 0})) << "9 s, 14 s and turns, and 22 s";
 }

@@ -46,10 +46,34 @@ TEST(SearchSpaces, DiscardTheLeastRecentlyUsedWithoutMemory) {
   search_back(spaces, 0);
   search_back(spaces, 1);
   spaces.of(0, StopCondition::never());
-  account.count(account.limit() * 5 / 8);
+  account.count(account.limit() * 23 / 32);
   spaces.of(2, StopCondition::never());
   EXPECT_GT(spaces.of(0, StopCondition::never())->bytes(), 0);
   EXPECT_EQ(spaces.of(1, StopCondition::never())->bytes(), 0);
+}
+
+TEST(SearchSpaces, DiscardThoseFirstThatAreUsedLast) {
+  const Planning p = three_robots();
+  MemoryAccount account(1 << 20);
+  const MemoryScope scope(&account);
+  SearchSpaces spaces(p.instance);
+  for (const std::size_t robot : {0u, 1u}) search_back(spaces, robot);
+  spaces.expect_use(1, 5);
+  spaces.expect_use(0, 3);
+  account.count(account.limit() * 23 / 32);
+  spaces.of(2, StopCondition::never());
+  EXPECT_GT(spaces.of(0, StopCondition::never())->bytes(), 0);
+  EXPECT_EQ(spaces.of(1, StopCondition::never())->bytes(), 0) << "used after 0, although less long ago";
+}
+
+TEST(SearchSpaces, KeepTheOneInUseWhenMemoryIsNearlyShort) {
+  const Planning p = three_robots();
+  MemoryAccount account(1 << 20);
+  const MemoryScope scope(&account);
+  SearchSpaces spaces(p.instance);
+  search_back(spaces, 0);
+  account.count(account.limit() * 23 / 32);
+  EXPECT_GT(spaces.of(0, StopCondition::never())->bytes(), 0);
 }
 
 TEST(SearchSpaces, AreAllDiscarded) {
