@@ -45,7 +45,12 @@ std::optional<bool> TimesFromStart::reach_goal(std::int64_t max_expansions, cons
 void TimesFromStart::expand(const Open& best) {
   const Position here = vertices_.position(best.vertex);
   const double speed = vertices_.times().linear_speed(here);
+  const Lattice& lattice = vertices_.lattice();
+  const bool on_lattice = best.vertex < lattice.vertex_count();
+  const auto after_one_step = static_cast<float>(best.seconds + lattice.spacing() / speed);
   vertices_.for_each_neighbour(best.vertex, [&](int neighbour) {
+    const bool is_step = on_lattice && neighbour < lattice.vertex_count();
+    if (time(neighbour) <= (is_step ? after_one_step : best.seconds)) return;
     if (!vertices_.allow(best.vertex, neighbour)) return;
     const double length = (vertices_.position(neighbour) - here).norm();
     const auto through = static_cast<float>(best.seconds + length / speed);
