@@ -6,6 +6,12 @@
 
 namespace fleetplan::core {
 
+/// Robots in the order of their expected arrivals.
+struct ExpectedOrder {
+  PriorityOrder robots;
+  bool cut_off = false;  // the stop condition was met before all was considered
+};
+
 /// Orders robots, which have goals, by when each can be expected to come to rest for good; see
 /// rank_by_time().
 ///
@@ -14,12 +20,15 @@ namespace fleetplan::core {
 ///
 /// 1. Each robot has a way alone on the static map (CostToGo), which tells when it arrives.
 /// 2. One robot after the other, the soonest first, looks whose goals its way passes after they arrive there.
-///    If there are any, it chooses another way, for which its own time and what it costs others is least
-///    (A*): to pass a goal costs the time for which its robot has to wait for that. Who waits already costs
-///    less, so that several choose the same way.
-/// 3. A robot whose goal is passed is expected afterwards, and ranks behind those who pass.
+///    Unless there is room beside those goals, it chooses another way, for which its own time and what it
+///    costs others is least (A*): to pass a goal costs the time for which its robot has to wait for that. Who
+///    waits already costs less, so that several choose the same way.
+/// 3. A robot whose goal is passed is expected afterwards, and ranks behind those who pass, except where
+///    these wait for it in turn.
 ///
-/// Returns `robots` if `stop` is met first, or if memory is short.
-PriorityOrder order_by_expected_arrival(PlanState& state, PriorityOrder robots, const StopCondition& stop);
+/// Where the search spaces of all robots are too much to keep, `robots` stay in their order, or no more ways
+/// are chosen.
+ExpectedOrder order_by_expected_arrival(PlanState& state, const PriorityOrder& robots,
+                                        const StopCondition& stop);
 
 }  // namespace fleetplan::core

@@ -103,6 +103,12 @@ OrderingResult repair_all(PlanState& state, const PriorityOrder& order, Random& 
                           const StopCondition& stop, ProgressReport& progress,
                           const OnStop& on_stop = nullptr);
 
+/// Plans as repair_all() does. Returns none as soon as so many attempts have failed.
+std::optional<OrderingResult> repair_unless(std::int64_t max_failures, PlanState& state,
+                                            const PriorityOrder& order, Random& random,
+                                            const StopCondition& stop, ProgressReport& progress,
+                                            const OnStop& on_stop);
+
 /// Plans the robots of `order` as repair_all() does, from a state in which some of them follow trajectories
 /// already. They keep these until a robot with a higher priority needs their way.
 OrderingResult repair_around(PlanState& state, const PriorityOrder& order, Random& random,

@@ -21,8 +21,11 @@ constexpr int kMaxOrdersWithoutDeadline = 10;
 /// The shares of the time after which a safe plan is made, and after which the making of it ends.
 constexpr double kFirstShare = 0.5;
 constexpr double kKeepingShare = 0.9;
-/// The share of the first part of the time which finding the first order may take.
-constexpr double kOrderShare = 0.5;
+/// The share of the first part of the time which finding the order of expected arrivals may take.
+constexpr double kOrderShare = 0.2;
+/// The failed attempts after which robots of different sizes are planned again in that order, if they were
+/// planned in another one.
+constexpr std::int64_t kMaxFailures = 15;
 
 /// Plans every robot once, in the given order.
 OrderingResult plan_each_once(PlanState& state, const PriorityOrder& order, const StopCondition& stop,
@@ -48,15 +51,10 @@ OrderingResult plan_each_once(PlanState& state, const PriorityOrder& order, cons
   return result;
 }
 
-/// The first order; see initial_order(). Shortest first without a horizon, the robots come in the order of
-/// their expected arrivals.
-PriorityOrder first_order(PlanState& state, const std::vector<std::size_t>& movers, Random& random,
-                          const StopCondition& stop) {
-  const Instance& instance = state.instance();
-  PriorityOrder order = initial_order(instance, movers, random);
-  const bool by_arrival = instance.options().priority == PlanOptions::Priority::shortest_first;
-  if (!by_arrival || instance.options().horizon) return order;
-  return order_by_expected_arrival(state, std::move(order), after_share(stop, kOrderShare));
+bool differ_in_size(const Instance& instance, const PriorityOrder& order) {
+  return std::any_of(order.begin(), order.end(), [&](std::size_t robot) {
+    return instance.motion(robot).pair_radius != instance.motion(order.front()).pair_radius;
+  });
 }
 
 PrioritizedResult all_unplanned(const std::vector<std::size_t>& movers) {
@@ -79,8 +77,9 @@ class PrioritizedPlanning {
         random_(random),
         time_(time),
         progress_(progress),
-        order_(first_order(state, movers, random, time.first_part)),
+        order_(initial_order(state.instance(), movers, random)),
         stop_(time.first_part) {
+    if (is_by_arrival()) order_by_arrival();
     const bool may_stop = state.instance().options().horizon && !order_.empty();
     if (may_stop && state.instance().robot(order_.front()).goal_age > 0.0) {
       state.set_whole_way_of(order_.front());
@@ -90,7 +89,7 @@ class PrioritizedPlanning {
   PrioritizedResult run() {
     OrderingResult ordering = plan_in_orders();
     result_.attempts += ordering.attempts;
-    result_.cut_off = ordering.cut_off || best_.has_value();
+    result_.cut_off = result_.cut_off || ordering.cut_off || best_.has_value();
     if (solved(ordering)) return std::move(result_);
     const bool may_try_again = !ordering.cut_off && other_orders_may_help(ordering);
     if (may_try_again || !best_ || !ordering.cut_off) {
@@ -119,7 +118,27 @@ class PrioritizedPlanning {
     if (restarts()) {
       return plan_with_restarts(state_, order_, random_, stop_, progress_, keep_plan);
     }
+    if (!is_by_arrival() && !state_.instance().options().horizon &&
+        differ_in_size(state_.instance(), order_)) {
+      if (auto result = repair_unless(kMaxFailures, state_, order_, random_, stop_, progress_, keep_plan)) {
+        return std::move(*result);
+      }
+      result_.attempts += kMaxFailures;
+      order_by_arrival();
+    }
     return repair_all(state_, order_, random_, stop_, progress_, keep_plan);
+  }
+
+  /// Whether robots come in the order of their expected arrivals from the beginning.
+  bool is_by_arrival() const {
+    const PlanOptions& options = state_.instance().options();
+    return options.priority == PlanOptions::Priority::shortest_first && !options.horizon;
+  }
+
+  void order_by_arrival() {
+    ExpectedOrder expected = order_by_expected_arrival(state_, order_, after_share(stop_, kOrderShare));
+    order_ = std::move(expected.robots);
+    result_.cut_off = result_.cut_off || expected.cut_off;
   }
 
   /// Keeps a safe plan at the end of the first part of the time, and returns to where planning was. Returns
@@ -193,7 +212,7 @@ class PrioritizedPlanning {
   Random& random_;
   const PlanningTime& time_;
   ProgressReport& progress_;
-  const PriorityOrder order_;
+  PriorityOrder order_;
   StopCondition stop_;  // ends the first attempt
   std::optional<KeptPlan> best_;
   PrioritizedResult result_;

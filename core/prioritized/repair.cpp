@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/model/objective_share.h"
 #include "core/prioritized/ejection_search.h"
 #include "core/prioritized/lattice_steps.h"
 #include "core/prioritized/orderings.h"
@@ -41,6 +40,8 @@ constexpr std::int64_t kExpansionsBeforeSteps = 1'500;
 /// Failures, in addition to one for each robot, after which they are, too: 400 disks take less than 250, and
 /// 800 on 1024 cells come to no end.
 constexpr std::int64_t kFailuresBeforeSteps = 100;
+
+constexpr auto kAnyNumber = std::numeric_limits<std::int64_t>::max();
 
 /// Returns the limits of the first search of a robot. It is incomplete: when it fails, others follow.
 SearchLimits quick_search(const Lattice& lattice) {
@@ -88,8 +89,10 @@ class Repair {
   /// Plans in steps would give up all plans that are kept.
   void do_without_steps() { tried_steps_ = true; }
 
-  OrderingResult run() {
+  /// Returns none as soon as so many attempts have failed.
+  std::optional<OrderingResult> run(std::int64_t max_failures = kAnyNumber) {
     while (!pending_.empty() && goes_on()) {
+      if (result_.attempts > max_failures) return std::nullopt;
       if (is_stuck() && plans_all_in_steps()) break;
       progress_.update();
       const std::size_t robot = pending_.begin()->second;
@@ -382,10 +385,17 @@ class Repair {
 
 OrderingResult repair_all(PlanState& state, const PriorityOrder& order, Random& random,
                           const StopCondition& stop, ProgressReport& progress, const OnStop& on_stop) {
+  return *repair_unless(kAnyNumber, state, order, random, stop, progress, on_stop);
+}
+
+std::optional<OrderingResult> repair_unless(std::int64_t max_failures, PlanState& state,
+                                            const PriorityOrder& order, Random& random,
+                                            const StopCondition& stop, ProgressReport& progress,
+                                            const OnStop& on_stop) {
   progress.next_attempt();
   Repair repair(state, order, random, stop, progress, on_stop);
   repair.postpone_all();
-  return repair.run();
+  return repair.run(max_failures);
 }
 
 OrderingResult repair_around(PlanState& state, const PriorityOrder& order, Random& random,
@@ -394,7 +404,7 @@ OrderingResult repair_around(PlanState& state, const PriorityOrder& order, Rando
   Repair repair(state, order, random, stop, progress, on_stop);
   repair.postpone_those_without_trajectory();
   repair.do_without_steps();
-  return repair.run();
+  return *repair.run();
 }
 
 }  // namespace fleetplan::core

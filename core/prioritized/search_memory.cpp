@@ -33,6 +33,7 @@ SearchSpace* SearchSpaces::of(std::size_t robot, const StopCondition& stop) {
 
 void SearchSpaces::discard_all() {
   for (Entry& entry : entries_) entry.space.reset();
+  ++discarded_;
 }
 
 /// Discards an eighth of what is kept if it is too much, but not the space that was used last.
@@ -52,6 +53,7 @@ void SearchSpaces::make_room() {
     if (bytes <= enough || entry->last_use == calls_) return;
     bytes -= entry->space->bytes();
     entry->space.reset();
+    ++discarded_;
   }
 }
 

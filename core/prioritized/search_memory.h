@@ -32,6 +32,8 @@ class SearchSpaces {
   /// Tells after how many uses of others the space of a robot will be used next. Holds until then.
   void expect_use(std::size_t robot, std::int64_t uses) { entries_[robot].last_use = -uses; }
   void discard_all();
+  /// How many spaces were discarded so far for lack of memory.
+  std::int64_t discarded() const { return discarded_; }
 
  private:
   struct Entry {
@@ -44,6 +46,7 @@ class SearchSpaces {
   const Instance& instance_;
   std::vector<Entry> entries_;  // by robot
   std::int64_t calls_ = 0;
+  std::int64_t discarded_ = 0;
 };
 
 /// What searches keep for later ones: the search spaces of robots, and the arrays of a search. When the job's
@@ -60,6 +63,8 @@ class SearchMemory {
   /// discarded before it, or it before others.
   void expect_use(std::size_t robot, std::int64_t uses) { spaces_.expect_use(robot, uses); }
   static constexpr std::int64_t kHardlyEver = std::numeric_limits<std::int64_t>::max();
+  /// How many search spaces were discarded so far for lack of memory.
+  std::int64_t discarded() const { return spaces_.discarded(); }
   /// The search among the reservations of the table.
   AaSipp& search() { return search_; }
 

@@ -120,6 +120,7 @@ class CostToGo::BackwardSearch {
     if (vertices_.any_angle() && goal_in_sight(vertex)) return true;
     if (vertex == start_) return from_start_->reach_goal(max_expansions, stop);
     begin(stop);
+    if (!has_begun_) return std::nullopt;
     const Node& n = node(vertex);
     const std::int64_t last = expansions_ + max_expansions;
     while (n.state != State::closed) {
@@ -272,8 +273,9 @@ bool CostToGo::BackwardSearch::estimate_start(int vertex, const StopCondition& s
 
 void CostToGo::BackwardSearch::begin(const StopCondition& stop) {
   if (has_begun_) return;
+  constexpr auto kAnyNumber = std::numeric_limits<std::int64_t>::max();
+  if (from_start_ && !from_start_->reach_goal(kAnyNumber, stop)) return;
   has_begun_ = true;
-  if (from_start_) from_start_->reach_goal(std::numeric_limits<std::int64_t>::max(), stop);
   node(goal_).state = State::closed;
   relax_neighbours(goal_, goal_);
 }

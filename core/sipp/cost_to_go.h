@@ -102,7 +102,7 @@ class CostToGo {
   std::optional<bool> reaches(int vertex, std::int64_t max_expansions, const StopCondition& stop);
 
   /// The way that from() has estimated for a vertex and that exists: the vertices at which its translations
-  /// end, the goal last; none if `stop` was met before it was found.
+  /// end, the goal last; none if it is not known.
   std::vector<int> way(int vertex);
   /// Its length, metres.
   double metres(int vertex);

@@ -13,7 +13,7 @@ namespace TEST_FILE {
 using support::ascii_map;
 using support::robot_at;
 
-PriorityOrder order_of(Planning& p) { return order_by_expected_arrival(p.state, p.movers(), p.never); }
+PriorityOrder order_of(Planning& p) { return order_by_expected_arrival(p.state, p.movers(), p.never).robots; }
 
 TEST(ExpectedArrivals, ComeByTheLengthOfTheWayAndNotOfTheLine) {
   Planning p(maze(), {robot_at(5.5, 3.5).to(5.5, 5.5), robot_at(20.5, 0.5).to(8.5, 0.5)});
@@ -95,8 +95,12 @@ TEST(ExpectedArrivals, OfRobotsWithoutAWayComeFirst) {
 
 TEST(ExpectedArrivals, LeaveTheOrderAsItIsWhenStopped) {
   Planning p(OccupancyGrid(10, 5, 1.0), {robot_at(0.5, 0.5).to(8.5, 0.5), robot_at(0.5, 2.5).to(2.5, 2.5)});
-  EXPECT_EQ(order_by_expected_arrival(p.state, {0, 1}, met()), (PriorityOrder{0, 1}));
-  EXPECT_EQ(order_by_expected_arrival(p.state, {0, 1}, p.never), (PriorityOrder{1, 0}));
+  const ExpectedOrder stopped = order_by_expected_arrival(p.state, {0, 1}, met());
+  EXPECT_EQ(stopped.robots, (PriorityOrder{0, 1}));
+  EXPECT_TRUE(stopped.cut_off);
+  const ExpectedOrder expected = order_by_expected_arrival(p.state, {0, 1}, p.never);
+  EXPECT_EQ(expected.robots, (PriorityOrder{1, 0}));
+  EXPECT_FALSE(expected.cut_off);
 }
 
 }  // namespace TEST_FILE
