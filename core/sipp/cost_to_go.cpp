@@ -111,7 +111,7 @@ class CostToGo::BackwardSearch {
       if (!is_slowed(vertex, goal_)) return straight;
     }
     const Node& n = node(vertex);
-    if (!settle(vertex, stop)) return open_.empty() ? straight : via(vertex, goal_);
+    if (!settle(vertex, stop)) return has_begun_ && open_.empty() ? straight : via(vertex, goal_);
     if (straight.straight && straight.least() <= least(n, vertex)) return straight;
     return {n.seconds, heading(vertex), straight.straight, reverse_seconds(vertex)};
   }
