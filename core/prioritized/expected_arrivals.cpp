@@ -198,7 +198,7 @@ class ExpectedArrivals {
       const Segment path{vertices.position(here), vertices.position(next)};
       t += vertices.times().rotation_time(path.from, heading, move.heading);
       const double t_start = t;
-      t += vertices.times().translation_time(move.length, [&] { return path; });
+      t += vertices.times().translation_time(move.length, [&]() -> const Segment& { return path; });
       for_each_passed(robot, stage, {path, t_start, t},
                       [&](const Passage& passage) { expected_[robot].passages.push_back(passage); });
       heading = move.heading;

@@ -44,7 +44,7 @@ class MoveTimes {
   template <class Path>
   double translation_time(double length, const Path& path) const {
     if (!limit_speeds()) return motion_.translation_time(length);
-    const Segment segment = path();
+    const Segment& segment = path();
     return zones_->translation_time(segment.from, segment.to);
   }
   /// Seconds to turn at a position.
