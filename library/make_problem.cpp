@@ -134,9 +134,9 @@ const char* impossible(const core::Action& action, const core::Robot& robot, con
 /// `speed`: at the end of the action before; none: unknown.
 const char* unfit(const core::Action& action, const core::Robot& robot, const core::Load& load,
                   std::optional<double> speed, bool may_be_measured) {
-  const double amount = core::amount_of(action);
   if (!action.profile) {
-    const bool has_to = !may_be_measured && robot.limits_changes_of_speed(action.type) && amount > kTolerance;
+    const bool has_to = !may_be_measured && robot.limits_changes_of_speed(action.type) &&
+                        core::amount_of(action) > kTolerance;
     if (has_to) return "has no profile, but the robot's acceleration is limited";
     const bool is_measured = action.type == Type::translate;
     return speed.value_or(0.0) > kTolerance && !is_measured ? "begins at rest, unlike the one before ends"
@@ -144,7 +144,7 @@ const char* unfit(const core::Action& action, const core::Robot& robot, const co
   }
   const core::SpeedProfile& profile = *action.profile;
   if (action.type == Type::wait) return "has a profile, but waits";
-  if (!(profile.cruise > 0.0) || profile.cruise < std::max(profile.start, profile.end)) {
+  if (!profile.is_possible()) {
     return "has a profile whose cruise speed is 0, or less than start or end";
   }
   const double greatest = action.type == Type::rotate ? robot.angular_speed : load.linear_speed;
@@ -154,11 +154,8 @@ const char* unfit(const core::Action& action, const core::Robot& robot, const co
   if (speed && std::abs(profile.start - *speed) > kTolerance) {
     return "has a profile that does not begin at the speed at which the one before ends";
   }
-  const double changes = profile.rise_length() + profile.fall_length();
-  const double seconds = core::duration(profile, amount) - (action.t_end - action.t_start);
-  const bool fits = changes <= amount + kTolerance * (1.0 + profile.cruise) &&
-                    std::abs(seconds) * profile.cruise <= kTolerance * (1.0 + profile.cruise);
-  return fits ? nullptr : "has a profile that does not lead over its length in its time";
+  return core::profile_fits(action) ? nullptr
+                                    : "has a profile that does not lead over its length in its time";
 }
 
 /// Reads the committed or previous actions of a robot. Differences within the contact tolerance are removed,
@@ -364,10 +361,8 @@ std::vector<Fault> faults_of(const Options& options, const Map& map) {
   return faults.take();
 }
 
-core::ProblemConditions conditions(ReadFleet& fleet, const Options& options) {
-  core::ProblemConditions made;
-  made.pair_overlap = std::max(0.0, options.start_overlap - 2.0 * options.inflation);
-  made.wall_overlap = std::max(0.0, options.start_overlap - options.inflation);
+core::ProblemConditions conditions_of(ReadFleet& fleet, const core::PlanOptions& options) {
+  core::ProblemConditions made = core::conditions_of(options);
   made.obstacles = std::move(fleet.obstacles);
   made.zones = std::move(fleet.zones);
   return made;
@@ -421,7 +416,8 @@ MadeProblem make_problem(const Problem& problem, const Options& options, const s
   const core::StopCondition cancelled(core::StopCondition::Clock::time_point::max(), stop);
   const auto map = core::static_map(grid_of(problem.map), cancelled);
   if (!map) return made;
-  auto created = core::Problem::create(map, std::move(fleet.robots), conditions(fleet, options), cancelled);
+  core::ProblemConditions conditions = conditions_of(fleet, options_of(options, in_motion(problem)));
+  auto created = core::Problem::create(map, std::move(fleet.robots), std::move(conditions), cancelled);
   if (auto* valid = std::get_if<core::Problem>(&created)) {
     made.problem = std::move(*valid);
     return made;

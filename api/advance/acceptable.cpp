@@ -83,12 +83,10 @@ class Mending {
   }
 
   core::ProblemConditions conditions() const {
-    const double inflation = request_.moment.inflation;
-    core::ProblemConditions conditions;
+    core::PlanOptions options = request_.fleet.options.plan;
+    options.start_overlap = start_overlap_;
+    core::ProblemConditions conditions = core::conditions_of(options);
     conditions.zones = request_.fleet.zones;
-    conditions.pair_overlap = std::max(0.0, start_overlap_ - 2.0 * inflation);
-    conditions.wall_overlap = std::max(0.0, start_overlap_ - inflation);
-    conditions.inflation = inflation;
     conditions.list_faults_of_every_robot = true;
     return conditions;
   }

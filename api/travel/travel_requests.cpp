@@ -125,9 +125,7 @@ std::optional<MatrixRequest> parse_matrix_request(const JsonReader& root, const 
   const auto static_map = maps != nullptr ? maps->map_of(std::move(map->grid), work.reading())
                                           : core::static_map(std::move(map->grid), work.reading());
   if (!static_map) return work.look(), std::nullopt;
-  core::ProblemConditions conditions;
-  conditions.wall_overlap = std::max(0.0, options.plan.start_overlap - options.plan.inflation);
-  conditions.inflation = options.plan.inflation;
+  core::ProblemConditions conditions = core::conditions_of(options.plan);
   conditions.zones = zones;
   conditions.one_at_a_time = true;
   auto made = core::Problem::create(static_map, robots_at(from, to, robot.front().robot, zones),

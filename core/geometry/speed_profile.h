@@ -4,6 +4,7 @@
 // constant acceleration up to a cruise speed, at that speed, and at constant deceleration down from it. The
 // cruise takes no time where the way is short. Formulas: docs/acceleration.md.
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -42,6 +43,7 @@ struct SpeedProfile {
   double end = 0.0;
   Inertia inertia;  // of the robot
 
+  bool is_possible() const { return cruise > 0.0 && cruise >= std::max(start, end); }
   /// Seconds from start to cruise, and from cruise to end.
   double rise_time() const { return (cruise - start) * inertia.rise; }
   double fall_time() const { return (cruise - end) * inertia.fall; }

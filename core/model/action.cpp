@@ -1,8 +1,10 @@
 #include "core/model/action.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/geometry/position.h"
+#include "core/geometry/tolerance.h"
 
 namespace fleetplan::core {
 namespace {
@@ -19,6 +21,21 @@ double share_of_profile(const Action& action, double amount, double seconds) {
 double amount_of(const Action& action) {
   return action.type == Action::Type::rotate ? angle_between(action.from.theta, action.to.theta)
                                              : (action.to.position - action.from.position).norm();
+}
+
+double covered_by_profile(const Action& action) {
+  const SpeedProfile& profile = *action.profile;
+  const double cruises = action.t_end - action.t_start - profile.rise_time() - profile.fall_time();
+  return profile.rise_length() + profile.cruise * cruises + profile.fall_length();
+}
+
+bool profile_fits(const Action& action) {
+  const SpeedProfile& profile = *action.profile;
+  if (!profile.is_possible()) return false;
+  const double duration = action.t_end - action.t_start;
+  return duration >= profile.rise_time() + profile.fall_time() - kContactTolerance &&
+         std::abs(covered_by_profile(action) - amount_of(action)) <=
+             kContactTolerance * (1.0 + profile.cruise);
 }
 
 double share_covered(const Action& action, double elapsed) {

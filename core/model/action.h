@@ -29,6 +29,12 @@ struct Action {
 /// Returns what an action covers: metres of a translation, radians of a rotation.
 double amount_of(const Action& action);
 
+/// Returns what the profile of an action, which has one, would cover in its time.
+double covered_by_profile(const Action& action);
+/// Returns whether the profile of an action, which has one, is possible and leads over the length (or angle)
+/// of the action in its time, within the contact tolerance.
+bool profile_fits(const Action& action);
+
 /// The share of its length (or angle), in [0, 1], that an action covers in a share of its duration.
 double share_covered(const Action& action, double elapsed);
 

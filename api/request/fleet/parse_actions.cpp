@@ -30,10 +30,6 @@ double turn_between(const core::Pose& a, const core::Pose& b) {
   return core::angle_between(a.theta, b.theta);
 }
 
-bool is_possible(const core::SpeedProfile& profile) {
-  return profile.cruise > 0.0 && profile.cruise >= std::max(profile.start, profile.end);
-}
-
 /// Returns how far a translation leads off the line of its heading, metres. A robot may drive backwards.
 double sideways(const core::Action& action) {
   const core::Position d = action.to.position - action.from.position;
@@ -50,24 +46,9 @@ std::string seconds(double t) { return number_text(t) + " s"; }
 
 }  // namespace
 
-double covered_by_profile(const core::Action& action) {
-  const core::SpeedProfile& profile = *action.profile;
-  const double cruises = action.t_end - action.t_start - profile.rise_time() - profile.fall_time();
-  return profile.rise_length() + profile.cruise * cruises + profile.fall_length();
-}
-
-bool profile_fits(const core::Action& action) {
-  const core::SpeedProfile& profile = *action.profile;
-  if (!is_possible(profile)) return false;
-  const double duration = action.t_end - action.t_start;
-  return duration >= profile.rise_time() + profile.fall_time() - kTolerance &&
-         std::abs(covered_by_profile(action) - core::amount_of(action)) <=
-             kTolerance * (1.0 + profile.cruise);
-}
-
 void leave_out_unfit_profiles(std::vector<core::Action>& actions) {
   for (core::Action& action : actions) {
-    if (action.profile && !profile_fits(action)) action.profile.reset();
+    if (action.profile && !core::profile_fits(action)) action.profile.reset();
   }
 }
 
@@ -236,8 +217,8 @@ void ActionChain::check_profile(const core::Action& action, const JsonReader& it
     });
     return;
   }
-  if (profile_fits(action)) return;
-  if (!is_possible(profile)) {
+  if (core::profile_fits(action)) return;
+  if (!profile.is_possible()) {
     member.fault(fault::kProfile, [&] {
       return name() + " has a profile with a cruise speed of " + number_text(profile.cruise) +
              "; it must be greater than 0, and no less than start and end.";
@@ -250,8 +231,9 @@ void ActionChain::check_profile(const core::Action& action, const JsonReader& it
   member.fault(fault::kProfile, [&] {
     return name() + (turns ? " rotates " : " translates ") + number_text(amount) + (turns ? " rad" : " m") +
            " in " + seconds(duration) + ", but with its profile and the robot's accelerations " +
-           (duration < changes - kTolerance ? "changing speed alone takes " + seconds(changes)
-                                            : "it would be " + number_text(covered_by_profile(action))) +
+           (duration < changes - kTolerance
+                ? "changing speed alone takes " + seconds(changes)
+                : "it would be " + number_text(core::covered_by_profile(action))) +
            "; give the speeds that belong to it, or leave the profile out for measured motion.";
   });
 }

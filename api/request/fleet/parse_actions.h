@@ -20,11 +20,6 @@ namespace fleetplan::api {
 /// its speeds only, until the robot is known.
 core::Action parse_action(const JsonReader& item, const Range& times);
 
-/// Whether a profile leads over the length (or angle) of its action in its time; and the length that it
-/// covers.
-bool profile_fits(const core::Action& action);
-double covered_by_profile(const core::Action& action);
-
 /// Leaves out the profiles that do not fit: what a robot does by an invalid plan is as good as measured.
 void leave_out_unfit_profiles(std::vector<core::Action>& actions);
 
