@@ -176,7 +176,7 @@ constexpr std::int64_t kMaxWork = 30'000'000;
 /// One robot may use the remaining work divided by this, since the first ones also compute what others share.
 constexpr std::int64_t kWorkDivisor = 64;
 /// Legs between two checks of the stop condition while it is found out which ones are straight.
-constexpr std::int64_t kLegsBetweenStops = 64;
+constexpr std::int64_t kLegsBetweenPolls = 64;
 
 /// Whether the robot's disk is clear of obstacles at both ends of a leg. Elsewhere it always is.
 bool fits_at_ends(const Instance& instance, std::size_t robot, std::size_t leg) {
@@ -252,7 +252,7 @@ void TautPathBounds::bound(const Instance& instance, const std::vector<std::size
     const Way& way = ways.emplace_back(instance, robot);
     seconds_[robot] = end_after(instance.itinerary(robot), way.seconds);
     for (std::size_t leg = 0; leg < way.legs.size() && !cut_off_; ++leg) {
-      if (++tested % kLegsBetweenStops == 0) cut_off_ = stop.met();
+      if (++tested % kLegsBetweenPolls == 0) cut_off_ = stop.met();
       const double radius = instance.stages(robot)[leg].motion.radius;
       const double reduced = radius - 2.0 * TangentGraph::kRadiusReduction;
       if (reduced <= 0.0) continue;

@@ -95,10 +95,10 @@ Workspace::Workspace(const Instance& instance, const PlanOptions& options, const
 }
 
 bool Workspace::follow_incumbent(const StopCondition& stop) {
-  constexpr std::size_t kRobotsBetweenStops = 8;
+  constexpr std::size_t kRobotsBetweenPolls = 8;
   std::size_t count = 0;
   for (const std::size_t robot : incumbent_.followers()) {
-    if (++count % kRobotsBetweenStops == 0 && stop.met()) return false;
+    if (++count % kRobotsBetweenPolls == 0 && stop.met()) return false;
     state_->reservations().follow(robot, incumbent_.trajectory(robot));
     versions_[robot] = incumbent_.version(robot);
   }

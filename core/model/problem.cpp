@@ -165,7 +165,6 @@ class CommittedFaults {
   /// Adds the first action that breaks the rule of a zone. An action that is slower than allowed is no fault.
   void check_zones(std::size_t index) {
     const Robot& robot = robots_[index];
-    if (robot.committed.empty()) return;
     LoadOnTheWay on_the_way(robot);
     DriveZones zones(conditions_.zones, index, robot, on_the_way.load());
     if (zones.empty() && !changes_load(robot)) return;
@@ -266,7 +265,7 @@ std::vector<ProblemFault> committed_faults(const ZoneMaps& maps, const std::vect
 }
 
 /// Goals of a robot between two checks of the stop condition.
-constexpr std::size_t kGoalsBetweenStops = 16;
+constexpr std::size_t kGoalsBetweenPolls = 16;
 
 /// Finds the faults of robot after robot. Exact distances are computed only for faults that are listed.
 class FaultSearch {
@@ -338,7 +337,7 @@ class FaultSearch {
           {ProblemFault::Kind::start_in_obstacle, index, 0, 0.0, 0, 0.0, robot.radius});
     double arrives = robot.radius;
     for (std::size_t k = 0; k < robot.goal_count(); ++k) {
-      if (k % kGoalsBetweenStops == kGoalsBetweenStops - 1 && stop_.met()) {
+      if (k % kGoalsBetweenPolls == kGoalsBetweenPolls - 1 && stop_.met()) {
         faults_.finished = false;
         return;
       }

@@ -56,7 +56,7 @@ class StepDistances {
   /// Dijkstra's search backwards, with a queue for each cost that is due (Dial, 1969).
   std::vector<std::uint16_t> to(int goal, const StepProblem::Neighbours& neighbours, const StepCosts& costs,
                                 const StopCondition& stop) {
-    StopStride stride(stop, StepProblem::kVerticesBetweenStops);
+    StopStride stride(stop, StepProblem::kVerticesBetweenPolls);
     std::vector<std::uint16_t> distance(neighbours.size(), kNoWay);
     distance[static_cast<std::size_t>(goal)] = 0;
     due_[0].push_back(goal);
@@ -112,7 +112,7 @@ StepCosts against_traffic(const StepProblem& problem, const StepDistances& alone
   StepCosts costs = even;
   for (const StepProblem::Neighbours& graph : problem.graphs) {
     for (std::size_t vertex = 0; vertex < graph.size(); ++vertex) {
-      if (vertex % StepProblem::kVerticesBetweenStops == 0 && stop.met()) break;
+      if (vertex % StepProblem::kVerticesBetweenPolls == 0 && stop.met()) break;
       for (std::size_t direction = 0; direction < 4; ++direction) {
         const int next = graph[vertex][direction];
         if (next == StepProblem::kNone) continue;

@@ -103,7 +103,7 @@ class StepGraph {
     StepProblem::Neighbours all(
         taken_.size(), {StepProblem::kNone, StepProblem::kNone, StepProblem::kNone, StepProblem::kNone});
     for (int vertex = 0; vertex < lattice.vertex_count(); ++vertex) {
-      if (vertex % StepProblem::kVerticesBetweenStops == 0 && stop.met()) break;
+      if (vertex % StepProblem::kVerticesBetweenPolls == 0 && stop.met()) break;
       if (taken_[static_cast<std::size_t>(vertex)]) continue;
       std::uint32_t mask = space.steps_from(vertex);
       // Bounded: the steps of a lattice, at most 32.

@@ -18,7 +18,7 @@ constexpr double kWidestCells = 3.0;
 /// Expansions of a search on the map before Enclosure is asked.
 constexpr std::int64_t kFirstExpansions = 16'384;
 /// Goals of a robot between two checks of the stop condition.
-constexpr std::size_t kGoalsBetweenStops = 16;
+constexpr std::size_t kGoalsBetweenPolls = 16;
 
 }  // namespace
 
@@ -56,7 +56,7 @@ void StaticWays::find_way(std::size_t robot, std::int64_t max_expansions, const 
   std::int64_t left = max_expansions;
   for (std::size_t goal = 0; goal < space->goal_count(); ++goal) {
     ways_[robot] = {};
-    if (goal % kGoalsBetweenStops == kGoalsBetweenStops - 1 && stop.met()) break;
+    if (goal % kGoalsBetweenPolls == kGoalsBetweenPolls - 1 && stop.met()) break;
     left -= find_leg(robot, *space, goal, left, stop);
     if (ways_[robot].kind != Way::Kind::on_lattice) break;
   }

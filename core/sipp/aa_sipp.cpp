@@ -14,10 +14,10 @@ namespace {
 
 /// Loop steps between two checks of the stop condition.
 constexpr int kStopStride = 32;
-/// Goals between two checks of the stop condition.
-constexpr int kGoalsBetweenStops = 64;
+/// Goals whose services are looked for between two checks of the stop condition.
+constexpr int kServicesBetweenPolls = 64;
 /// How much faster the accepted suboptimality grows for a path that stops at the horizon: that is tried again
-/// in the next round anyway.
+/// by the next request anyway.
 constexpr double kRestGrowth = 10.0;
 
 enum class Pass : std::uint8_t { quick, complete };
@@ -71,8 +71,8 @@ class PathEnd {
     const double growth = limits_.suboptimality_growth * static_cast<double>(expansions);
     return entry_cost_ <= (1.0 + (limits_.suboptimality + growth)) * min_f;
   }
-  /// Whether no entry promises much more than the best label to rest at. What is accepted relates to the time
-  /// up to the horizon, as the way beyond it is the same for all.
+  /// Whether no entry has a clearly smaller f than the best label to rest at. What is accepted relates to the
+  /// time up to the horizon, as the way beyond it is the same for all.
   bool rest_suffices(double min_f, std::int64_t expansions) const {
     if (rest_ == LabelId::none) return false;
     const double growth = kRestGrowth * limits_.suboptimality_growth * static_cast<double>(expansions);
@@ -237,6 +237,7 @@ bool Search::begin(Pass pass) {
   end_.begin();
   state_.clear(static_cast<std::size_t>(space_.vertex_count()));
   const double slack = uses_slack ? limits_.dominance_slack * space_.vertices().lattice().spacing() : 0.0;
+  // With the slowest rotations, an arrival that dominates does so in every zone.
   state_.dominance.reset(space_.vertices().times().slowest_motion(), motion_.translation_time(slack));
   stopped_ = !goals_.begin(stop_);
   if (stopped_ || !goals_.end_at(successors_.goal_of(goals_.last_stage()))) return false;
@@ -246,7 +247,7 @@ bool Search::begin(Pass pass) {
 /// Whether each goal before the last one is free for long enough, at some time.
 bool Search::can_serve_all() {
   for (int k = 0; k < goals_.last_stage(); ++k) {
-    stopped_ = k % kGoalsBetweenStops == kGoalsBetweenStops - 1 && stop_.met();
+    stopped_ = k % kServicesBetweenPolls == kServicesBetweenPolls - 1 && stop_.met();
     if (stopped_ || !goals_.can_serve(k, state_.places[successors_.goal_of(k)])) return false;
   }
   return true;
@@ -292,7 +293,7 @@ void Search::expand(LabelId id) {
   if (services.suffice) return;
   const auto [first, end] = successors_.add_edges(id);
   for (int edge = first; edge < end; ++edge) {
-    offer_from(EdgeId{edge}, state_.edges[EdgeId{edge}].first_interval);
+    offer_from(EdgeId{edge}, state_.edges[EdgeId{edge}].from_interval);
   }
 }
 

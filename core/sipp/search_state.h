@@ -28,7 +28,7 @@ enum class ArrivalId : int { none = -1 };
 struct Place {
   int vertex;
   int stage;
-  int number;  // of the vertex among those of all loads
+  int number;  // of the vertex among those of all views: SearchSpace::first_vertex(stage) + vertex
   Position position;
   CostToGo::Estimate
       estimate;            // h, to the end of the last service; of an existing way, so it may be too high
@@ -92,7 +92,7 @@ struct Edge {
   LabelId via = LabelId::none;  // the label that is expanded
   PlaceId target = PlaceId::none;
   Sight shortcut_sight = Sight::blocked;  // blocked if there is no shortcut
-  int first_interval = 0;                 // of the target, into which it may lead
+  int from_interval = 0;                  // the first one of the target into which it may lead
 
   const Move& move(MoveKind kind) const { return kind == MoveKind::shortcut ? shortcut : local; }
 };
@@ -159,8 +159,9 @@ class OpenList {
 /// move, is no later than b's time.
 class DominanceTable {
  public:
-  /// Removes all arrivals and intervals, for a search with this motion. `slack` > 0: an arrival also
-  /// dominates others that precede it by less than `slack` seconds, whatever their heading.
+  /// Removes all arrivals and intervals, for a search with this motion: the one with the least angular speed
+  /// that the robot has anywhere, so that an arrival that dominates does so in every zone. `slack` > 0: an
+  /// arrival also dominates others that precede it by less than `slack` seconds, whatever their heading.
   void reset(const Motion& motion, double slack);
 
   /// Intervals are numbered from 0. The count never decreases until reset().

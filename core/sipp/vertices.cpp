@@ -16,7 +16,7 @@ namespace {
 constexpr double kLinkDistance = 2.0;
 /// A start that is too near to others is linked to vertices within this distance if the robot is clear of
 /// them only there, in lattice spacings.
-constexpr double kLongestLink = 12.0;
+constexpr double kLongestLink = 12.0;  // > kLinkDistance
 /// Comparisons of own vertices and links between two checks of the stop condition.
 constexpr std::size_t kWorkBetweenPolls = 16 * 1024;
 
@@ -66,8 +66,8 @@ int OwnVertices::add_start_at(const Position& position, std::size_t robot) {
   const int vertex = lattice_vertex_at(position);
   if (vertex >= 0 && radius == robot_radius_ && deficit <= kContactTolerance) return vertex;
   // Two metres for one that is missing: the way need not lead straight away from the others.
-  const double reach = std::min(kLinkDistance * lattice_.spacing() + 2.0 * deficit,
-                                std::max(kLinkDistance, kLongestLink) * lattice_.spacing());
+  const double reach =
+      std::min(kLinkDistance * lattice_.spacing() + 2.0 * deficit, kLongestLink * lattice_.spacing());
   return add({position, radius, deficit <= kContactTolerance ? kForever : reach, {}}, reach);
 }
 

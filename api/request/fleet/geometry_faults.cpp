@@ -22,7 +22,7 @@ using FaultKind = core::ProblemFault::Kind;
 constexpr double kShareOfAll = 0.5;
 constexpr std::size_t kFewestFaults = 2;
 /// Poses between two looks at the stop condition.
-constexpr std::size_t kPosesBetweenStops = 16;
+constexpr std::size_t kPosesBetweenPolls = 16;
 
 /// Returns the position of a pose in the request, which may have faults, in the world.
 std::optional<Position> position_of(const JsonReader& pose) {
@@ -79,7 +79,7 @@ class Trial {
   bool all_fit(bool mirrored, double radius_factor) {
     std::size_t looks = 0;
     const auto fits = [&](const JsonReader& pose, double radius) {
-      if (++looks % kPosesBetweenStops == 0 && stop_.met()) return false;
+      if (++looks % kPosesBetweenPolls == 0 && stop_.met()) return false;
       const auto world = position_of(pose);
       if (!world) return true;  // has a fault of its own
       Position position = fleet_.map->frame.to_map(*world);

@@ -4,7 +4,8 @@
 // time steps, and each execution is checked by the formulas of the checker.
 //
 // A run ends when no robot can go on, which its policy decides:
-// - `open_loop`, `absorb_waits`: when each robot has executed all of its actions (`execute_alone`).
+// - `open_loop`, `absorb_waits`: when each robot has executed all of its actions (`execute_alone` in
+//   execute_alone.cpp).
 // - `dependencies`: when no robot is ready to go on and no event of a drive is left
 //   (`DependentExecution::run` in execute_dependencies.cpp). A robot that still has actions then waits for
 //   ever and has not arrived: a deadlock.
