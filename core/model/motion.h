@@ -10,11 +10,11 @@ namespace fleetplan::core {
 
 /// How one robot moves, with the plan's options applied.
 struct Motion {
-  double radius = 0.0;            // metres, to walls, inflation included
+  double radius = 0.0;            // metres, to walls: the bare radius (Load::radius) and the inflation
   double linear_speed = 0.0;      // metres per second
   double angular_speed = 0.0;     // radians per second
   double wait_before_move = 0.0;  // seconds
-  double pair_radius = 0.0;       // metres, to other robots: vicinity and inflation included
+  double pair_radius = 0.0;       // metres, to other robots: with the vicinity, too
   bool may_reverse = false;       // translate backwards, too
 
   Inertia linear_inertia = {};   // of translations

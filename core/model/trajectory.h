@@ -26,7 +26,8 @@ struct Trajectory {
   std::vector<bool> reverse = {};  // by move: whether it is backwards; missing ones are not
   /// Seconds: the end of the service at the last goal, if the robot has another radius from then on.
   double last_served = kForever;
-  /// By move: whether it goes on straight from the move before, at another speed; missing ones do not.
+  /// `goes_on[k]`: move k follows move k - 1 without a stop, straight on, at another speed or with a profile
+  /// of its own; missing ones do not.
   std::vector<bool> goes_on = {};
   std::vector<std::optional<SpeedProfile>> profiles = {};  // by move; missing ones are at constant speed
   /// Seconds: the plan stops here, at or after the horizon, with goals left. `cost` is then an estimate: it

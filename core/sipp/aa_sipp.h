@@ -77,7 +77,7 @@ struct SearchResult {
 ///     while OPEN is not empty:                               run
 ///       if the best timed entry at the end costs at most (1 + suboptimality) * min f: settle it, stop
 ///                                                            PathEnd::goal_suffices
-///       with a horizon: if no entry promises more than the best label to rest at, stop there
+///       with a horizon: if no entry has a clearly smaller f than the best label to rest at, stop there
 ///                                                            PathEnd::rest_suffices
 ///       entry <- OPEN.pop()                                  smallest f = g + heuristic_weight * h
 ///       if entry is not timed:                               time_entry: lazy, as in Lazy Theta*
@@ -93,7 +93,7 @@ struct SearchResult {
 ///           continue
 ///       else if the entry is dominated by now: continue
 ///       label <- (place, safe interval, heading) with g      settle ["High-level overview"]
-///       if label is at the last goal in its last safe interval: stop       Goals::is_end
+///       if label is at the last goal in a safe interval without end: stop  Goals::is_end
 ///       with a horizon: remember it if the robot may rest there for good   Goals::may_rest_at
 ///       expand label:
 ///         if it is at the goal of its stage: push its service              Successors::services_from

@@ -239,8 +239,8 @@ void PathToTrajectory::append_move(const Label& from, const Label& to) {
   }
 }
 
-/// Appends the pieces of the move to a label. The first one that continues the last move, at the same speed,
-/// is joined to that.
+/// Appends the pieces of the move to a label, each with Trajectory::goes_on: move k follows move k - 1
+/// without a stop. The first one that continues the last move, at the same speed, is joined to that.
 void PathToTrajectory::append_pieces(const std::vector<DriveZones::Piece>& pieces, const Label& to,
                                      bool continues) {
   constexpr double kSameSpeed = 1e-9;  // relative; far above rounding

@@ -105,7 +105,7 @@ class SearchSpace {
   const Instance& instance_;
   std::size_t robot_;
   const RobotStages* stages_;
-  Itinerary own_itinerary_;  // of robots one after the other
+  Itinerary own_itinerary_;  // used instead of the instance's one, see begin_at()
   const Itinerary& itinerary_;
   bool any_heading_at_start_ = false;
   std::vector<View> views_;                 // one for each load

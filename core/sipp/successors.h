@@ -18,8 +18,10 @@
 namespace fleetplan::core {
 
 /// The successors of labels for one robot: moves to neighbours, shortcuts from the parent (any-angle), moves
-/// straight to the goal, and services. All that limits a move from a label is here: driving backwards, zones,
-/// and loads that change from stage to stage. The loop of the search knows none of them.
+/// straight to the goal, and services. What driving backwards, zones, and loads that change from stage to
+/// stage mean for a move is here, and the loop of the search knows none of them; but Goals::latest_departure
+/// says when a robot has to leave before its radius changes, Goals::trajectory_to divides the moves of the
+/// result at zones, and Search::heading_at_start chooses the direction of a robot that may have any heading.
 class Successors {
  public:
   /// All arguments outlive this object.

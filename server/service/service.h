@@ -18,16 +18,18 @@ struct Service {
     std::string body;  // JSON
   };
 
-  Endpoint plan;                             // run by a planning worker
-  Endpoint validate;                         // run by a planning worker
-  Endpoint simulate;                         // run by a planning worker, with progress
-  Endpoint advance;                          // takes milliseconds, without a turn
-  Endpoint dependencies;                     // run by a planning worker
-  Endpoint retime;                           // takes milliseconds, without a turn
-  Endpoint matrix;                           // run by a planning worker
-  Endpoint assign;                           // run by a planning worker
-  Endpoint vda5050;                          // takes milliseconds, without a turn
-  Endpoint import_vda5050;                   // takes milliseconds, without a turn
+  // Each is run as a job (JobRunner), and waits for its turn once its body is read and has no fault.
+  Endpoint plan;  // with progress
+  Endpoint validate;
+  Endpoint simulate;  // with progress
+  Endpoint advance;   // takes milliseconds once it has its turn
+  Endpoint dependencies;
+  Endpoint retime;  // takes milliseconds once it has its turn
+  Endpoint matrix;
+  Endpoint assign;
+  Endpoint vda5050;         // takes milliseconds once it has its turn
+  Endpoint import_vda5050;  // takes milliseconds once it has its turn
+
   std::function<api::Reply()> example_list;  // GET /v1/examples
   std::function<api::Reply()> openapi;       // GET /v1/openapi.json
   std::vector<Example> examples;

@@ -132,7 +132,7 @@ class ZonesOfRobot {
 
   std::size_t robot_;
   std::vector<ZoneBox> zones_;
-  bool may_leave_any_ = false;  // of them
+  bool may_leave_any_ = false;  // of the zones
 };
 
 }  // namespace fleetplan::core
