@@ -119,9 +119,9 @@ void have_no_way(RobotPlan& plan, const std::vector<std::size_t>& closed_by) {
 }
 
 void explain_stuck(PlanState& state, RobotPlan& plan, const std::vector<std::size_t>& staying,
-                   BlockingRobots& blocking) {
+                   BlockingRobots& blocking, const StopCondition& stop) {
   if (!staying.empty()) {
-    const Enclosure::Result way = Enclosure(state.instance(), plan.robot, staying).find(kStepsOfStuck);
+    const Enclosure::Result way = Enclosure(state.instance(), plan.robot, staying, stop).find(kStepsOfStuck);
     if (way.answer == Enclosure::Answer::closed) return have_no_way(plan, way.robots);
   }
   plan.blocked_by = blocking.find(plan.robot);
@@ -137,7 +137,7 @@ Plan with_stuck_explained(PlanState& state, Plan plan, const StopCondition& stop
     const std::vector<std::size_t> staying = state.reservations().staying_robots();
     BlockingRobots blocking(state, stop);
     for (RobotPlan& robot : plan.plans) {
-      if (robot.is_stuck && !stop.met()) explain_stuck(state, robot, staying, blocking);
+      if (robot.is_stuck && !stop.met()) explain_stuck(state, robot, staying, blocking, stop);
     }
     if (stop.met()) plan.deterministic = false;
   } catch (const std::bad_alloc&) {  // not granted to the job: the others are stuck without a reason

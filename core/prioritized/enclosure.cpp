@@ -20,6 +20,12 @@ constexpr std::int64_t kCellsPerStep = 8;
 /// The effort for the robots that close a way, in floods.
 constexpr std::int64_t kMaxFloods = 24;
 
+/// To sort what disks cover of a border takes longer than to look at them.
+constexpr std::size_t kWorkOfCovering = 16;
+/// Steps, and disks and cells that they look at, between two questions of the stop condition: about a
+/// millisecond.
+constexpr std::int64_t kWorkBetweenStops = 1 << 15;
+
 /// The accuracy of the width of a way, metres.
 constexpr double kGapAccuracy = 0.001;
 
@@ -41,8 +47,13 @@ struct Enclosure::Flood {
   std::size_t closed_side = 0;
 };
 
-Enclosure::Enclosure(const Instance& instance, std::size_t robot, const std::vector<std::size_t>& staying)
-    : instance_(instance), grid_(instance.problem().grid()), robot_(robot), clearance_(required_clearance()) {
+Enclosure::Enclosure(const Instance& instance, std::size_t robot, const std::vector<std::size_t>& staying,
+                     const StopCondition& stop)
+    : instance_(instance),
+      grid_(instance.problem().grid()),
+      robot_(robot),
+      clearance_(required_clearance()),
+      stop_(stop) {
   const Itinerary& itinerary = instance.itinerary(robot);
   const Position& start = itinerary.pose.position;
   for (const std::size_t other : staying) {
@@ -77,7 +88,7 @@ Enclosure::Result Enclosure::find(std::int64_t max_steps) {
   Flood last = flood(max_steps);
   if (last.answer != Answer::closed) return {last.answer, {}};
   std::vector<Disk*> removed;
-  // Bounded: each robot is removed once, and each flood ends after max_steps.
+  // Bounded: each robot is removed once, and each flood ends after max_steps or when `stop_` is met.
   while (last.answer == Answer::closed) {
     const std::vector<Disk*>& closing = last.closing[last.closed_side];
     if (closing.empty()) return {Answer::closed, {}};
@@ -95,7 +106,7 @@ std::optional<double> Enclosure::widest_way(double limit, std::int64_t max_steps
   if (flood(max_steps).answer != Answer::open) return std::nullopt;
   double open = needed;
   double closed = std::max(needed, 0.5 * limit);
-  while (closed - open > kGapAccuracy) {
+  while (closed - open > kGapAccuracy && !is_over_) {
     clearance_ = 0.5 * (open + closed);
     (flood(max_steps).answer == Answer::open ? open : closed) = clearance_;
   }
@@ -110,8 +121,8 @@ std::vector<std::size_t> Enclosure::necessary(const std::vector<Disk*>& removed,
   std::int64_t floods = 0;
   for (Disk* disk : removed) {
     disk->removed = false;
-    const bool superfluous = ++floods <= kMaxFloods && flood(max_steps).answer != Answer::closed;
-    if (superfluous) continue;
+    const bool is_closed = is_over_ || ++floods > kMaxFloods || flood(max_steps).answer == Answer::closed;
+    if (!is_closed && !is_over_) continue;
     disk->removed = true;
     robots.push_back(disk->robot);
   }
@@ -130,8 +141,8 @@ Enclosure::Flood Enclosure::flood(std::int64_t max_steps) {
     flood.cells[side].push_back(begins[side]);
   }
   if (begins[0] == begins[1]) flood.answer = Answer::open;
-  // Bounded: max_steps.
-  while (flood.answer == Answer::unknown && steps_ <= max_steps) {
+  // Bounded: max_steps, and `stop_`.
+  while (flood.answer == Answer::unknown && steps_ <= max_steps && !is_over()) {
     for (std::size_t side = 0; side < Flood::kSides.size() && flood.answer == Answer::unknown; ++side) {
       expand(flood, side);
       if (flood.answer == Answer::open || flood.expanded[side] < flood.cells[side].size()) continue;
@@ -142,9 +153,18 @@ Enclosure::Flood Enclosure::flood(std::int64_t max_steps) {
   return flood;
 }
 
+/// Whether the stop condition was met; asks it once in a while.
+bool Enclosure::is_over() {
+  if (work_ < kWorkBetweenStops) return is_over_;
+  work_ = 0;
+  is_over_ = is_over_ || stop_.met();
+  return is_over_;
+}
+
 /// Reaches the neighbours of one cell.
 void Enclosure::expand(Flood& flood, std::size_t side) {
   const Cell cell = flood.cells[side][flood.expanded[side]++];
+  ++work_;
   struct Neighbour {
     int columns, rows;
     int begin_column, begin_row;  // begin of the border, counted from the cell
@@ -202,13 +222,15 @@ std::vector<Enclosure::Disk*> Enclosure::disks_near(const Border& border) {
   const double length = grid_.resolution();
   const Position end = border.begin + length * Position(border.vertical ? 0.0 : 1.0,  //
                                                         border.vertical ? 1.0 : 0.0);
-  auto disk = std::lower_bound(disks_.begin(), disks_.end(), border.begin.x() - longest_reach_,
-                               [](const Disk& d, double x) { return d.center.x() < x; });
+  const auto first = std::lower_bound(disks_.begin(), disks_.end(), border.begin.x() - longest_reach_,
+                                      [](const Disk& d, double x) { return d.center.x() < x; });
   std::vector<Disk*> near;
+  auto disk = first;
   for (; disk != disks_.end() && disk->center.x() <= end.x() + longest_reach_; ++disk) {
     const double away = std::max({border.begin.y() - disk->center.y(), disk->center.y() - end.y(), 0.0});
     if (!disk->removed && away < disk->reach) near.push_back(&*disk);
   }
+  work_ += (disk - first) + static_cast<std::int64_t>(kWorkOfCovering * near.size());
   return near;
 }
 
@@ -218,8 +240,10 @@ std::pair<Cell, Cell> Enclosure::cells_near(const Border& border) {
   const double far = clearance_ + grid_.resolution();
   const Cell low = grid_.cell_at(border.begin - Position(clearance_, clearance_));
   const Cell high = grid_.cell_at(border.begin + Position(far, far));
-  steps_ +=
-      static_cast<std::int64_t>(high.column - low.column + 1) * (high.row - low.row + 1) / kCellsPerStep;
+  const std::int64_t cells =
+      static_cast<std::int64_t>(high.column - low.column + 1) * (high.row - low.row + 1);
+  steps_ += cells / kCellsPerStep;
+  work_ += cells;
   return {low, high};
 }
 

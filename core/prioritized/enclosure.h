@@ -8,6 +8,7 @@
 
 #include "core/geometry/position.h"
 #include "core/instance/instance.h"
+#include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
 
@@ -28,16 +29,19 @@ class Enclosure {
     std::vector<std::size_t> robots;
   };
 
-  /// `robot` has a goal; `staying` are the robots that stay where their plans would begin.
-  Enclosure(const Instance& instance, std::size_t robot, const std::vector<std::size_t>& staying);
+  /// `robot` has a goal; `staying` are the robots that stay where their plans would begin. `instance` and
+  /// `stop` outlive this object.
+  Enclosure(const Instance& instance, std::size_t robot, const std::vector<std::size_t>& staying,
+            const StopCondition& stop);
 
   /// Finds out whether the robot is closed off. The answer is unknown after `max_steps` steps, about 50 ns
-  /// each. To find the robots may take a few times as many; beyond that, more robots than necessary are
-  /// returned.
+  /// each but for many disks near one border, and if the stop condition is met first. To find the robots may
+  /// take a few times as many; beyond that, or after the stop, more robots than necessary are returned, or
+  /// not all of them.
   Result find(std::int64_t max_steps);
 
   /// Returns the width of the widest way between obstacles, up to `limit` metres; at least what the robot
-  /// needs. None if no way is found within `max_steps` steps.
+  /// needs. None if no way is found within `max_steps` steps, or before the stop condition is met.
   std::optional<double> widest_way(double limit, std::int64_t max_steps);
 
  private:
@@ -67,6 +71,7 @@ class Enclosure {
   void cover_by(const Border& border, const Position& low, const Position& high, double distance);
   std::vector<Disk*> disks_near(const Border& border);
   bool fully_covered(double length);
+  bool is_over();
   std::vector<std::size_t> necessary(const std::vector<Disk*>& removed, std::int64_t max_steps);
 
   const Instance& instance_;
@@ -77,6 +82,9 @@ class Enclosure {
   std::vector<Disk> disks_;       // by abscissa
   std::vector<Covered> covered_;  // the covered parts of the border that is examined
   std::int64_t steps_ = 0;        // steps of the present flood
+  const StopCondition& stop_;
+  std::int64_t work_ = 0;  // steps, disks and cells since the stop condition was asked
+  bool is_over_ = false;   // it was met
 };
 
 }  // namespace fleetplan::core

@@ -15,12 +15,14 @@ constexpr double kNoLater = 1e-6;
 /// Ends a search when obstacles and robots that stay are found to close off the robot.
 class EnclosureTest final : public NoPathTest {
  public:
-  EnclosureTest(StaticWays& ways, std::size_t robot) : ways_(ways), robot_(robot) {}
-  bool no_path(std::int64_t expansions) override { return ways_.is_closed_off(robot_, expansions); }
+  EnclosureTest(StaticWays& ways, std::size_t robot, const StopCondition& stop)
+      : ways_(ways), robot_(robot), stop_(stop) {}
+  bool no_path(std::int64_t expansions) override { return ways_.is_closed_off(robot_, expansions, stop_); }
 
  private:
   StaticWays& ways_;
   std::size_t robot_;
+  const StopCondition& stop_;
 };
 
 }  // namespace
@@ -33,7 +35,7 @@ PlanState::PlanState(const Instance& instance)
       ways_(reservations_, memory_) {}
 
 SearchResult PlanState::plan(std::size_t robot, const SearchLimits& limits, const StopCondition& stop) {
-  EnclosureTest test(ways_, robot);
+  EnclosureTest test(ways_, robot, stop);
   SearchLimits with_test = limits;
   // With a horizon, a robot that is closed off may come nearer to its goal all the same.
   if (reservations_.any_stays() && !instance_.options().horizon) with_test.no_path_test = &test;
@@ -103,7 +105,7 @@ SearchResult PlanState::search_whole_way(std::size_t robot, const SearchLimits& 
     held_for.push_back(reservations_.holds_place_for(other));
     reservations_.stay_in_place(other);
   }
-  EnclosureTest test(ways_, robot);
+  EnclosureTest test(ways_, robot, stop);
   SearchLimits with_test = limits;
   with_test.no_path_test = &test;
   with_test.bound = std::min(limits.bound, previous_service_end(instance_.robot(robot)) + kNoLater);

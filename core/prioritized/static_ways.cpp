@@ -82,18 +82,18 @@ std::int64_t StaticWays::find_leg(std::size_t robot, SearchSpace& space, std::si
     next *= 2;
     if (reaches && *reaches) way.kind = Way::Kind::on_lattice;
     if (reaches && !*reaches) {
-      way = space.goal_count() == 1 ? way_off_lattice(robot) : Way{Way::Kind::not_on_lattice, {}, {}};
+      way = space.goal_count() == 1 ? way_off_lattice(robot, stop) : Way{Way::Kind::not_on_lattice, {}, {}};
     }
     if (reaches || stop.met()) break;
     // With a horizon, a robot that others close off may come nearer to its goal all the same.
-    test_enclosure(robot, instance_.options().horizon ? Robots() : others_that_stay(robot), last);
+    test_enclosure(robot, instance_.options().horizon ? Robots() : others_that_stay(robot), last, stop);
   }
   return costs.expansions() - before;
 }
 
 /// For a robot without a way on the lattice: whether obstacles close off its goal on any lattice.
-Way StaticWays::way_off_lattice(std::size_t robot) const {
-  Enclosure enclosure(instance_, robot, {});
+Way StaticWays::way_off_lattice(std::size_t robot, const StopCondition& stop) const {
+  Enclosure enclosure(instance_, robot, {}, stop);
   if (enclosure.find(kOffLatticeSteps).answer == Enclosure::Answer::closed)
     return {Way::Kind::closed, {}, {}};
   const double limit =
@@ -101,8 +101,8 @@ Way StaticWays::way_off_lattice(std::size_t robot) const {
   return {Way::Kind::not_on_lattice, {}, enclosure.widest_way(limit, kOffLatticeSteps)};
 }
 
-bool StaticWays::is_closed_off(std::size_t robot, std::int64_t expansions) {
-  return test_enclosure(robot, others_that_stay(robot), expansions);
+bool StaticWays::is_closed_off(std::size_t robot, std::int64_t expansions, const StopCondition& stop) {
+  return test_enclosure(robot, others_that_stay(robot), expansions, stop);
 }
 
 StaticWays::Robots StaticWays::others_that_stay(std::size_t robot) const {
@@ -112,8 +112,9 @@ StaticWays::Robots StaticWays::others_that_stay(std::size_t robot) const {
 }
 
 /// Whether obstacles and these robots are found to close off the robot; see is_closed_off().
-bool StaticWays::test_enclosure(std::size_t robot, const Robots& staying, std::int64_t expansions) {
-  Enclosure::Result result = Enclosure(instance_, robot, staying).find(kEnclosureSteps * expansions);
+bool StaticWays::test_enclosure(std::size_t robot, const Robots& staying, std::int64_t expansions,
+                                const StopCondition& stop) {
+  Enclosure::Result result = Enclosure(instance_, robot, staying, stop).find(kEnclosureSteps * expansions);
   if (result.answer != Enclosure::Answer::closed) return false;
   if (!result.robots.empty()) closed_by_robots_.push_back(robot);
   ways_[robot] = {Way::Kind::closed, std::move(result.robots), {}};

@@ -46,8 +46,8 @@ class StaticWays {
   /// What is known of that way.
   const Way& way_to_goal(std::size_t robot) const { return ways_[robot]; }
   /// Whether obstacles and robots that stay are found to close off the robot, with an effort that suits a
-  /// search of so many expansions. If so, way_to_goal() knows it from now on.
-  bool is_closed_off(std::size_t robot, std::int64_t expansions);
+  /// search of so many expansions. If so, way_to_goal() knows it from now on. False if `stop` is met first.
+  bool is_closed_off(std::size_t robot, std::int64_t expansions, const StopCondition& stop);
 
   /// Whether the way to the robot's goal, alone on the map, takes longer than any plan may.
   bool takes_too_long(std::size_t robot, const StopCondition& stop);
@@ -68,11 +68,12 @@ class StaticWays {
   using Robots = std::vector<std::size_t>;
 
   Robots others_that_stay(std::size_t robot) const;
-  bool test_enclosure(std::size_t robot, const Robots& staying, std::int64_t expansions);
+  bool test_enclosure(std::size_t robot, const Robots& staying, std::int64_t expansions,
+                      const StopCondition& stop);
   void find_way(std::size_t robot, std::int64_t max_expansions, const StopCondition& stop);
   std::int64_t find_leg(std::size_t robot, SearchSpace& space, std::size_t goal, std::int64_t max_expansions,
                         const StopCondition& stop);
-  Way way_off_lattice(std::size_t robot) const;
+  Way way_off_lattice(std::size_t robot, const StopCondition& stop) const;
 
   const FleetReservations& reservations_;
   SearchMemory& memory_;

@@ -19,9 +19,9 @@ constexpr std::size_t kManyFixed = 10'000;
 
 // A query asks SegmentIndex for the reservations that come and go, and FixedReservations for obstacles and
 // committed motion. Both call a function for every moving disk (Occupant) that may come too near within a
-// window of time, until it returns false: SegmentIndex in one bucket of the map, so that a move walks the
-// buckets on its path, FixedReservations for a whole move. disk_motion.h computes when two disks are nearer
-// to each other than the distance for their pair, CollisionDistance or FixedDistance.
+// window of time, until it returns false: SegmentIndex in one bucket of a layer, so that a move walks the
+// buckets of each layer on its path, FixedReservations for a whole move. disk_motion.h computes when two
+// disks are nearer to each other than the distance for their pair, CollisionDistance or FixedDistance.
 
 using Occupant = SegmentIndex::Occupant;
 
@@ -223,12 +223,14 @@ std::vector<SafeInterval> ReservationTable::safe_intervals(const Footprint& foot
   const MarginAtRest margin{margin_, begins_at_commitment_end(robot, position) ? commitment_end(robot) : 0.0};
   const Segment here{position, position};
   const CollisionDistance collision_distance(*index_, footprint, here);
-  index_->visit(robot, index_->grid().at(position), t_from - margin_ - kSameTime, kForever,
-                [&](const Occupant& other) {
-                  const UnsafeInterval hit = unsafe_interval(position, other.disk, collision_distance(other));
-                  if (!hit.empty()) unsafe.push_back(margin.widened(hit));
-                  return true;
-                });
+  for (const SegmentIndex::Layer& layer : index_->layers(robot)) {
+    index_->visit(
+        layer, layer.grid().at(position), t_from - margin_ - kSameTime, kForever, [&](const Occupant& other) {
+          const UnsafeInterval hit = unsafe_interval(position, other.disk, collision_distance(other));
+          if (!hit.empty()) unsafe.push_back(margin.widened(hit));
+          return true;
+        });
+  }
   if (fixed_ != nullptr) {
     if (!fixed_->known()) return {};
     const FixedDistance fixed_distance(*this, footprint, here);
@@ -266,18 +268,20 @@ std::optional<double> ReservationTable::earliest_departure(const Footprint& foot
   // Bounded: each round is later than a reservation that the one before met.
   while (move.is_delayed()) {
     move.begin_round();
-    index.grid().walk(path.from, path.to, [&](std::size_t bucket, double enter, double exit) {
-      if (has_ramp) [[unlikely]] {
-        enter = elapsed_share(enter, ramp);
-        exit = elapsed_share(exit, ramp);
-      }
-      while (!index.visit(robot, bucket, mine.t_start + enter * duration - margin_,
-                          mine.t_start + exit * duration + margin_, visit)) {
-        if (move.is_never()) return false;
-      }
-      return true;
-    });
-    if (move.is_never()) return std::nullopt;
+    for (const SegmentIndex::Layer& layer : index.layers(robot)) {
+      layer.grid().walk(path.from, path.to, [&](std::size_t bucket, double enter, double exit) {
+        if (has_ramp) [[unlikely]] {
+          enter = elapsed_share(enter, ramp);
+          exit = elapsed_share(exit, ramp);
+        }
+        while (!index.visit(layer, bucket, mine.t_start + enter * duration - margin_,
+                            mine.t_start + exit * duration + margin_, visit)) {
+          if (move.is_never()) return false;
+        }
+        return true;
+      });
+      if (move.is_never()) return std::nullopt;
+    }
     if (fixed_ != nullptr && !delay_past_fixed(footprint, path, move)) return std::nullopt;
   }
   return mine.t_start;
@@ -310,17 +314,21 @@ std::vector<std::size_t> ReservationTable::robots_hit(std::size_t robot,
     const bool moving = mine.velocity.squaredNorm() > 0.0;
     const double duration = moving ? segment.duration() : 0.0;
     const double margin = margin_of(robot, segment);
-    index_->grid().walk(
-        segment.path.from, segment.path.to, [&](std::size_t bucket, double enter, double exit) {
-          const double t_begin = mine.t_start + elapsed_share(enter, mine.ramp) * duration - margin;
-          const double t_end =
-              (moving ? mine.t_start + elapsed_share(exit, mine.ramp) * duration : mine.t_end) + margin;
-          return index_->visit(robot, bucket, t_begin, t_end, [&](const Occupant& other) {
-            const double reach = std::max(0.0, collision_distance(other) - kSearchSlack);  // rounding
-            if (other.robot != robot && meet(mine, other.disk, reach, margin)) hit.push_back(other.robot);
-            return true;
+    const auto visit = [&](const Occupant& other) {
+      const double reach = std::max(0.0, collision_distance(other) - kSearchSlack);  // rounding
+      if (other.robot != robot && meet(mine, other.disk, reach, margin)) hit.push_back(other.robot);
+      return true;
+    };
+    // Bounded: a few layers.
+    for (const SegmentIndex::Layer& layer : index_->layers(robot)) {
+      layer.grid().walk(
+          segment.path.from, segment.path.to, [&](std::size_t bucket, double enter, double exit) {
+            const double t_begin = mine.t_start + elapsed_share(enter, mine.ramp) * duration - margin;
+            const double t_end =
+                (moving ? mine.t_start + elapsed_share(exit, mine.ramp) * duration : mine.t_end) + margin;
+            return index_->visit(layer, bucket, t_begin, t_end, visit);
           });
-        });
+    }
   }
   return ascending(std::move(hit));
 }

@@ -11,6 +11,10 @@ constexpr std::size_t kMaxClasses = 6;
 /// Buckets of all classes together, and of them for each robot, to bound memory and time on huge maps.
 constexpr double kMaxBuckets = 2.5e5;
 constexpr double kMaxBucketsPerRobot = 4096.0;
+/// The sides of buckets within which a disk at rest is entered: into a few hundred buckets of its layer.
+constexpr double kMostReach = 8.0;
+/// The side of a bucket to that of one in the layer before.
+constexpr double kLayerRatio = 4.0;
 
 std::vector<double> pair_radii(const std::vector<LargestDisk>& disks) {
   std::vector<double> radii;
@@ -45,12 +49,15 @@ SegmentIndex::SegmentIndex(double width, double height, double cell_size, std::v
                            const Contacts* contacts)
     : disks_(std::move(disks)),
       contacts_(contacts),
-      grid_(width, height, bucket_size(width, height, cell_size, pair_radii(disks_))),
+      width_(width),
+      height_(height),
+      bucket_size_(bucket_size(width, height, cell_size, pair_radii(disks_))),
       class_of_(disks_.size()),
       held_(disks_.size()),
       ignored_(disks_.size(), 0) {
   const std::vector<double> classes = class_radii(pair_radii(disks_));
-  for (const double radius : classes) classes_.push_back({radius, std::vector<Bucket>(grid_.count())});
+  const BucketGrid grid(width, height, bucket_size_);
+  for (const double radius : classes) classes_.push_back({radius, {Layer(0, grid)}});
   for (std::size_t i = 0; i < disks_.size(); ++i) {
     const auto it = std::lower_bound(classes.begin(), classes.end(), disks_[i].pair_radius);
     class_of_[i] = static_cast<std::size_t>(it - classes.begin());
@@ -64,29 +71,80 @@ SegmentIndex::DiskId SegmentIndex::store(std::size_t robot, const SizedSegment& 
   const double radius = disks_[robot].pair_radius_with(segment.radius);
   const Occupant occupant{MovingDisk(segment), radius, robot, endpoint};
   has_ramps_ = has_ramps_ || segment.ramp != 0.0;
-  if (vacant_.empty()) return occupants_.push_back(occupant);
+  if (vacant_.empty()) {
+    numbers_.resize(occupants_.size() + 1);  // first, as memory may be spent
+    const DiskId id = occupants_.push_back(occupant);
+    numbers_[id] = added_++;
+    return id;
+  }
   const DiskId id = vacant_.back();
   vacant_.pop_back();
   occupants_[id] = occupant;
+  numbers_[id] = added_++;
   return id;
+}
+
+double SegmentIndex::size_of(int level) const { return bucket_size_ * std::pow(kLayerRatio, level); }
+
+/// Of the layer in which robots of the class meet the occupant.
+int SegmentIndex::level_of(const RadiusClass& radius_class, const Occupant& occupant) const {
+  const double reach = occupant.radius + radius_class.radius + occupant.disk.sag();
+  const double most = std::max(width_, height_);
+  int level = 0;
+  while (reach > kMostReach * size_of(level) && size_of(level) < most) ++level;
+  return level;
+}
+
+SegmentIndex::Layer& SegmentIndex::layer_of(RadiusClass& radius_class, int level) const {
+  std::vector<Layer>& layers = radius_class.layers;
+  const auto at = std::find_if(layers.begin(), layers.end(), [&](auto& l) { return l.level_ >= level; });
+  if (at != layers.end() && at->level_ == level) return *at;
+  return *layers.insert(at, Layer(level, BucketGrid(width_, height_, size_of(level))));
 }
 
 void SegmentIndex::enter(RadiusClass& radius_class, DiskId id) {
   const Occupant& occupant = occupants_[id];
   const bool endless = occupant.disk.t_end == kForever;
-  grid_.cover(occupant.disk, occupant.radius + radius_class.radius,
-              [&](std::size_t index, double t_begin, double t_end) {
-                Bucket& bucket = radius_class.buckets[index];
-                if (endless) {
-                  bucket.resting.push_back(id);
-                  return;
-                }
-                const auto later =
-                    std::upper_bound(bucket.passing.begin(), bucket.passing.end(), t_begin,
-                                     [](double t, const Entry& entry) { return t < entry.t_begin; });
-                bucket.passing.insert(later, {t_begin, t_end, id});
-                bucket.longest = std::max(bucket.longest, t_end - t_begin);
-              });
+  Layer& layer = layer_of(radius_class, level_of(radius_class, occupant));
+  layer.grid_.cover(occupant.disk, occupant.radius + radius_class.radius,
+                    [&](std::size_t index, double t_begin, double t_end) {
+                      Bucket& bucket = layer.buckets_[index];
+                      if (endless) {
+                        bucket.resting.push_back(id);
+                        return;
+                      }
+                      const auto later =
+                          std::upper_bound(bucket.passing.begin(), bucket.passing.end(), t_begin,
+                                           [](double t, const Entry& entry) { return t < entry.t_begin; });
+                      bucket.passing.insert(later, {t_begin, t_end, id});
+                      bucket.longest = std::max(bucket.longest, t_end - t_begin);
+                    });
+}
+
+/// Undoes enter(). Time windows are computed again, which gives the same ones. Where memory was spent before
+/// the disk was entered, there is no entry.
+void SegmentIndex::leave(RadiusClass& radius_class, DiskId id) {
+  const Occupant& occupant = occupants_[id];
+  const bool endless = occupant.disk.t_end == kForever;
+  const auto is_earlier = [&](DiskId other) { return numbers_[other] < numbers_[id]; };
+  const int level = level_of(radius_class, occupant);
+  std::vector<Layer>& layers = radius_class.layers;
+  const auto layer = std::find_if(layers.begin(), layers.end(), [&](auto& l) { return l.level_ == level; });
+  if (layer == layers.end()) return;
+  layer->grid_.cover(
+      occupant.disk, occupant.radius + radius_class.radius, [&](std::size_t index, double t_begin, double) {
+        if (endless) {
+          std::vector<DiskId>& resting = layer->buckets_[index].resting;
+          const auto at = std::partition_point(resting.begin(), resting.end(), is_earlier);
+          if (at != resting.end() && *at == id) resting.erase(at);
+          return;
+        }
+        std::vector<Entry>& passing = layer->buckets_[index].passing;
+        const auto at = std::partition_point(passing.begin(), passing.end(), [&](const Entry& entry) {
+          return entry.t_begin == t_begin ? is_earlier(entry.id) : entry.t_begin < t_begin;
+        });
+        if (at != passing.end() && at->id == id) passing.erase(at);
+      });
 }
 
 void SegmentIndex::add(std::size_t robot, const std::vector<SizedSegment>& segments) {
@@ -103,15 +161,7 @@ void SegmentIndex::add(std::size_t robot, const std::vector<SizedSegment>& segme
 void SegmentIndex::remove(std::size_t robot) {
   // Bounded: the segments of one trajectory, and a few classes.
   for (const DiskId id : held_[robot]) {
-    const Occupant& occupant = occupants_[id];
-    for (RadiusClass& radius_class : classes_) {
-      grid_.cover(occupant.disk, occupant.radius + radius_class.radius,
-                  [&](std::size_t index, double, double) {
-                    Bucket& bucket = radius_class.buckets[index];
-                    std::erase(bucket.resting, id);
-                    std::erase_if(bucket.passing, [id](const Entry& entry) { return entry.id == id; });
-                  });
-    }
+    for (RadiusClass& radius_class : classes_) leave(radius_class, id);
     vacant_.push_back(id);
   }
   held_[robot].clear();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "core/commitments/contacts.h"
@@ -18,6 +19,10 @@ namespace fleetplan::core {
 /// its own. A segment is entered into every bucket of a class where it could touch a robot of that class,
 /// with the time window in which it could. A query therefore only visits the buckets on its own centre line,
 /// and there only the entries whose time window overlaps the query's.
+///
+/// A class has layers of buckets, those of one being larger than those of the one before. A segment is
+/// entered into the first layer whose buckets are not much smaller than the distance at which it could touch
+/// a robot of the class, so that a robot that is much larger than others is in few buckets.
 class SegmentIndex {
  public:
   /// A robot on one of its segments.
@@ -28,12 +33,41 @@ class SegmentIndex {
     Endpoint endpoint = Endpoint::none;
   };
 
+ private:
+  enum class DiskId : int {};
+  struct Entry {
+    double t_begin;
+    double t_end;
+    DiskId id;
+  };
+  struct Bucket {
+    std::vector<Entry> passing;   // by t_begin, then by number
+    std::vector<DiskId> resting;  // without end; by number
+    double longest = 0.0;         // the longest duration of an entry that was ever in `passing`
+  };
+
+ public:
+  /// Buckets of one size.
+  class Layer {
+   public:
+    const BucketGrid& grid() const { return grid_; }
+
+   private:
+    friend class SegmentIndex;
+    Layer(int level, const BucketGrid& grid) : level_(level), grid_(grid), buckets_(grid.count()) {}
+
+    int level_;
+    BucketGrid grid_;
+    std::vector<Bucket> buckets_;
+  };
+
   /// An empty index; for the arguments see ReservationTable.
   SegmentIndex(double width, double height, double cell_size, std::vector<LargestDisk> disks,
                const Contacts* contacts);
 
   const LargestDisk& disk(std::size_t robot) const { return disks_[robot]; }
-  const BucketGrid& grid() const { return grid_; }
+  /// The layers that have what could touch `robot`, one at least. A query visits all of them.
+  const std::vector<Layer>& layers(std::size_t robot) const { return classes_[class_of_[robot]].layers; }
   /// Whether a segment that is or was in the index changes its speed.
   bool has_ramps() const { return has_ramps_; }
   /// Null if no two robots are in contact.
@@ -45,36 +79,31 @@ class SegmentIndex {
   /// Visits leave out the segments of an ignored robot.
   void ignore(std::size_t robot, bool ignored) { ignored_[robot] = ignored; }
 
-  /// Calls visit(occupant) for every occupant that could touch `robot` in this bucket of the grid within the
-  /// open time window. Stops when visit returns false; returns false then, and true otherwise.
+  /// Calls visit(occupant) for every occupant of a layer that could touch its robot in this bucket of the
+  /// layer's grid within the open time window: what rests for ever in the order in which it was added, then
+  /// the others by the beginning of their time windows, and in that order if these are equal. Stops when
+  /// visit returns false; returns false then, and true otherwise.
   template <class Visitor>
-  bool visit(std::size_t robot, std::size_t bucket, double t_begin, double t_end, Visitor&& visit) const {
-    return visit_bucket(classes_[class_of_[robot]].buckets[bucket], t_begin, t_end, visit);
+  bool visit(const Layer& layer, std::size_t bucket, double t_begin, double t_end, Visitor&& visit) const {
+    return visit_bucket(layer.buckets_[bucket], t_begin, t_end, visit);
   }
 
  private:
   /// Shorter lists are scanned from the front.
   static constexpr std::size_t kShortList = 16;
 
-  enum class DiskId : int {};
-  struct Entry {
-    double t_begin;
-    double t_end;
-    DiskId id;
-  };
-  struct Bucket {
-    std::vector<Entry> passing;   // by t_begin
-    std::vector<DiskId> resting;  // without end
-    double longest = 0.0;         // the longest duration of an entry that was ever in `passing`
-  };
   /// The buckets for robots of about one size.
   struct RadiusClass {
-    double radius;  // of the largest robot in the class
-    std::vector<Bucket> buckets;
+    double radius;              // of the largest robot in the class
+    std::vector<Layer> layers;  // by level: the first one, and others that have or had entries
   };
 
   DiskId store(std::size_t robot, const SizedSegment& segment, bool has_left);
+  double size_of(int level) const;
+  int level_of(const RadiusClass& radius_class, const Occupant& occupant) const;
+  Layer& layer_of(RadiusClass& radius_class, int level) const;
   void enter(RadiusClass& radius_class, DiskId id);
+  void leave(RadiusClass& radius_class, DiskId id);
 
   template <class Visitor>
   bool visit_bucket(const Bucket& bucket, double t_begin, double t_end, Visitor& visit) const {
@@ -95,13 +124,17 @@ class SegmentIndex {
 
   std::vector<LargestDisk> disks_;  // by robot
   const Contacts* contacts_;
-  BucketGrid grid_;
+  double width_;        // metres, of the map
+  double height_;       // metres
+  double bucket_size_;  // metres, of the first layer
   std::vector<RadiusClass> classes_;
   std::vector<std::size_t> class_of_;  // by robot
   IndexedVector<Occupant, DiskId> occupants_;
+  IndexedVector<std::uint64_t, DiskId> numbers_;  // of the occupants, among all that were ever added
   std::vector<DiskId> vacant_;
   std::vector<std::vector<DiskId>> held_;  // by robot
   std::vector<char> ignored_;              // by robot; not bool, for speed
+  std::uint64_t added_ = 0;
   bool has_ramps_ = false;
 };
 

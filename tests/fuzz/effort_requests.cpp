@@ -464,6 +464,13 @@ Effort planning_effort(Choices choices) {
   if (choices.yes()) {  // two sizes
     for (std::size_t k = 1; k < count; k += 2) request["robots"][k]["radius"] = 0.5 * radius;
   }
+  if (choices.yes()) {  // one robot much larger than the others, away from where these are if they are near
+    const Extent extent = extent_of(request["map"]);
+    Json& large = request["robots"][0];
+    large["radius"] = 0.12 * std::min(extent.width, extent.height);
+    large["start"] = {{"x", 0.87 * extent.width}, {"y", 0.13 * extent.height}};
+    if (large.contains("goal")) large["goal"] = {{"x", 0.13 * extent.width}, {"y", 0.13 * extent.height}};
+  }
   return {api::plan_endpoint, true, request.dump(), count, steps, memory};
 }
 

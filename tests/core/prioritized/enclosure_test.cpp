@@ -22,7 +22,7 @@ OccupancyGrid rooms() {
 
 TEST(Enclosure, NamesTheRobotInTheDoorway) {
   const Planning p(rooms(), {robot_at(1, 1).to(8, 1), robot_at(4.5, 1.5), robot_at(7, 2)});
-  const auto result = Enclosure(p.instance, 0, {1, 2}).find(kMany);
+  const auto result = Enclosure(p.instance, 0, {1, 2}, p.never).find(kMany);
   EXPECT_EQ(result.answer, Answer::closed);
   EXPECT_EQ(result.robots, Robots{1});
 }
@@ -32,35 +32,50 @@ TEST(Enclosure, NamesAllRobotsThatCloseTheWayOneAfterTheOther) {
                                        "...........",  //
                                        "....#.#...."}),
                    {robot_at(1, 1).to(10, 1), robot_at(4.5, 1.5), robot_at(6.5, 1.5)});
-  EXPECT_EQ(Enclosure(p.instance, 0, {1, 2}).find(kMany).robots, (Robots{1, 2}));
+  EXPECT_EQ(Enclosure(p.instance, 0, {1, 2}, p.never).find(kMany).robots, (Robots{1, 2}));
 }
 
 TEST(Enclosure, IsOpenWhereTheRobotFitsPastAnotherOne) {
   const Planning p(rooms(), {robot_at(1, 1).to(8, 1).radius(0.2), robot_at(4.5, 1.7).radius(0.25)});
-  EXPECT_EQ(Enclosure(p.instance, 0, {1}).find(kMany).answer, Answer::open);
-  EXPECT_EQ(Enclosure(p.instance, 0, {}).find(kMany).answer, Answer::open);
+  EXPECT_EQ(Enclosure(p.instance, 0, {1}, p.never).find(kMany).answer, Answer::open);
+  EXPECT_EQ(Enclosure(p.instance, 0, {}, p.never).find(kMany).answer, Answer::open);
 }
 
 TEST(Enclosure, NamesNoRobotWhereObstaclesCloseTheWay) {
   const Planning p(rooms(), {robot_at(1, 1).to(8, 1).radius(0.6), robot_at(4.5, 1.5)});
-  const auto result = Enclosure(p.instance, 0, {1}).find(kMany);
+  const auto result = Enclosure(p.instance, 0, {1}, p.never).find(kMany);
   EXPECT_EQ(result.answer, Answer::closed);
   EXPECT_EQ(result.robots, Robots{});
 }
 
 TEST(Enclosure, IsOpenForARobotInContactWithAnotherOneAndAWall) {
   const Planning p(rooms(), {robot_at(0.4, 0.4).to(8, 1), robot_at(1.2, 0.4), robot_at(0.4, 2.6)});
-  EXPECT_EQ(Enclosure(p.instance, 0, {1, 2}).find(kMany).answer, Answer::open);
+  EXPECT_EQ(Enclosure(p.instance, 0, {1, 2}, p.never).find(kMany).answer, Answer::open);
 }
 
 TEST(Enclosure, EndsAfterTheGivenSteps) {
   const Planning p(OccupancyGrid(400, 400, 1.0), {robot_at(1, 1).to(399, 399)});
-  EXPECT_EQ(Enclosure(p.instance, 0, {}).find(1'000).answer, Answer::unknown);
+  EXPECT_EQ(Enclosure(p.instance, 0, {}, p.never).find(1'000).answer, Answer::unknown);
+}
+
+/// Whoever looks at many disks near every border asks the stop condition sooner.
+TEST(Enclosure, EndsWhenTheStopConditionIsMet) {
+  std::vector<Robot> robots{robot_at(5, 5).to(115, 115)};
+  Robots staying;
+  for (int k = 0; k < 16 * 12; ++k) {  // with gaps of a metre
+    robots.push_back(robot_at(4.0 + 7.0 * (k % 16), 20.0 + 7.0 * (k / 16)).radius(3.0));
+    staying.push_back(robots.size() - 1);
+  }
+  const Planning p(OccupancyGrid(120, 120, 1.0), std::move(robots));
+  const StopCondition met(StopCondition::Clock::time_point::min());
+  EXPECT_EQ(Enclosure(p.instance, 0, {}, met).find(kMany).answer, Answer::open) << "little work";
+  EXPECT_EQ(Enclosure(p.instance, 0, staying, met).find(kMany).answer, Answer::unknown);
+  EXPECT_EQ(Enclosure(p.instance, 0, staying, p.never).find(kMany).answer, Answer::open);
 }
 
 TEST(Enclosure, MeasuresTheWidestWay) {
   const Planning p(rooms(), {robot_at(1, 1).to(8, 1).radius(0.2)});
-  const auto widest = Enclosure(p.instance, 0, {}).widest_way(3.0, kMany);
+  const auto widest = Enclosure(p.instance, 0, {}, p.never).widest_way(3.0, kMany);
   ASSERT_TRUE(widest);
   EXPECT_NEAR(*widest, 1.0, 0.005) << "the doorway";
 }
@@ -93,7 +108,7 @@ TEST(Enclosure, NeverClosesOffARobotThatHasAPath) {
       p.reservations.stay_in_place(robot);
       staying.push_back(robot);
     }
-    const bool closed = Enclosure(p.instance, 0, staying).find(kMany).answer == Answer::closed;
+    const bool closed = Enclosure(p.instance, 0, staying, p.never).find(kMany).answer == Answer::closed;
     closed_count += closed ? 1 : 0;
     EXPECT_FALSE(closed && p.state.plan(0, {}, p.never).trajectory) << "round " << round;
   }

@@ -61,7 +61,7 @@ TEST(PlanState, FindsAWayPastAnIgnoredRobotThatIsKnownToCloseIt) {
                                  "....#...."}),
              {robot_at(0.5, 1.5).to(8.5, 1.5), robot_at(4.5, 1.5).to(4.5, 1.5)});
   p.reservations.stay_in_place(1);
-  ASSERT_TRUE(p.state.ways().is_closed_off(0, 1000));
+  ASSERT_TRUE(p.state.ways().is_closed_off(0, 1000, p.never));
   EXPECT_FALSE(p.state.plan(0, {}, p.never).trajectory);
   const auto found = p.state.plan_ignoring({1}, 0, {}, p.never).trajectory;
   ASSERT_TRUE(found);

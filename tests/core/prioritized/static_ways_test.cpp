@@ -27,10 +27,10 @@ TEST(StaticWays, KnowsThatRobotsCloseAWayUntilOneLeaves) {
                                  "#####"}),
              {robot_at(0.5, 1.5).to(4.5, 1.5), robot_at(2.5, 1.5).to(1.5, 2.5), robot_at(1.5, 2.5)});
   StaticWays& ways = p.state.ways();
-  EXPECT_FALSE(ways.is_closed_off(0, kMany));
+  EXPECT_FALSE(ways.is_closed_off(0, kMany, p.never));
   p.reservations.stay_in_place(1);
   p.reservations.stay_in_place(2);
-  ASSERT_TRUE(ways.is_closed_off(0, kMany));
+  ASSERT_TRUE(ways.is_closed_off(0, kMany, p.never));
   EXPECT_EQ(ways.way_to_goal(0).kind, Way::Kind::closed);
   EXPECT_EQ(ways.way_to_goal(0).closed_by, Robots{1});
   p.reservations.reserve_place(1, 3.0);

@@ -19,6 +19,7 @@ namespace TEST_FILE {
 
 constexpr double kWidth = 12.0;
 constexpr double kHeight = 9.0;
+constexpr double kLarge = 6.0;      // metres: the radius of a robot much larger than the others
 constexpr double kRounding = 1e-8;  // seconds
 
 /// Robots of many radii, more than the table has classes, some of them with reservations; one of them
@@ -46,6 +47,8 @@ class RandomReservations : public testing::TestWithParam<int> {
     std::vector<double> random;
     const bool equal = dice.chance(0.2);
     for (int i = 1 + dice.below(16); i >= 0; --i) random.push_back(equal ? 0.4 : dice.between(0.05, 1.2));
+    if (dice.chance(0.2))
+      random[static_cast<std::size_t>(dice.below(static_cast<int>(random.size())))] = kLarge;
     return random;
   }
 
