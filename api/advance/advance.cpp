@@ -31,10 +31,7 @@ struct GoalsLeft {
 
 /// Whether the last goal has been served by the rest at the end of a plan.
 bool has_served_last(const core::Robot& robot, const Actions& actions, double progress) {
-  const std::vector<core::Visit> visits = core::visits_of(robot, actions);
-  if (visits.size() < robot.goal_count()) return false;
-  const double end = std::max(visits.back().t_arrive, robot.goal->not_before) + robot.goal->service;
-  return std::max(end, robot.committed_until()) <= progress + kSameService;
+  return core::last_service_end(robot, actions) <= progress + kSameService;
 }
 
 /// The first of these goals that changes the radius.

@@ -85,12 +85,13 @@ const std::vector<Action>& previous_actions(const Robot& robot) {
   return robot.goal && robot.previous && !robot.previous->empty() ? *robot.previous : robot.committed;
 }
 
-double previous_service_end(const Robot& robot) {
-  const std::vector<Visit> visits = visits_of(robot, previous_actions(robot));
+double last_service_end(const Robot& robot, std::span<const Action> actions) {
+  const std::vector<Visit> visits = visits_of(robot, actions);
   if (visits.size() < robot.goal_count()) return kForever;
-  const double end = std::max(visits.back().t_arrive, robot.goal->not_before) + robot.goal->service;
-  return std::max(end, robot.committed_until());
+  return std::max(robot.goal->service_end(visits.back().t_arrive), robot.committed_until());
 }
+
+double previous_service_end(const Robot& robot) { return last_service_end(robot, previous_actions(robot)); }
 
 Itinerary itinerary_of(const Robot& robot) {
   Itinerary itinerary;

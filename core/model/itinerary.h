@@ -66,9 +66,11 @@ std::vector<Visit> visits_of(const Robot& robot, std::span<const Action> actions
 /// no previous plan. If there are none, the robot rests after its committed actions.
 const std::vector<Action>& previous_actions(const Robot& robot);
 
-/// Returns when the service at the last goal ends by the previous plan of a robot with a goal, seconds;
-/// kForever if it does not serve all goals. A service that is committed does not end before the commitment
-/// does.
+/// Returns when the service at the last goal ends for a robot with a goal that stays where `actions` end,
+/// seconds; kForever if it does not serve all goals. A service that is committed does not end before the
+/// commitment does.
+double last_service_end(const Robot& robot, std::span<const Action> actions);
+/// The same by the robot's previous plan.
 double previous_service_end(const Robot& robot);
 
 /// What is left to plan for a robot after its committed actions.

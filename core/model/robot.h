@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -31,6 +32,9 @@ struct Goal {
   std::optional<double> linear_speed_after = {};
   std::optional<double> linear_acceleration_after = {};
   std::optional<double> linear_deceleration_after = {};
+
+  /// When the service ends for a robot that comes to rest in the pose at this time; seconds.
+  double service_end(double t_rest) const { return std::max(t_rest, not_before) + service; }
 
   /// Whether the load of the robot changes at the end of the service, and with it its radius or how it
   /// drives.

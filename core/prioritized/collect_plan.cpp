@@ -46,7 +46,7 @@ void add_estimates(RobotPlan& plan, const Trajectory& trajectory, bool has_gaine
 /// Removes the visit to the last goal from a plan that stops there before its service is over.
 void remove_unserved_last(std::vector<Visit>& visits, const Robot& robot, double stops_at) {
   if (visits.size() < robot.goal_count() || visits.empty()) return;
-  const double served = std::max(visits.back().t_arrive, robot.goal->not_before) + robot.goal->service;
+  const double served = robot.goal->service_end(visits.back().t_arrive);
   if (served > stops_at + kSameTime) visits.pop_back();
 }
 

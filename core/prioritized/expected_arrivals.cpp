@@ -29,8 +29,8 @@ constexpr double kWeight = 1.1;
 /// Expansions of these searches for each robot, on average: halls with 300 robots take less. No more ways are
 /// chosen after that.
 constexpr std::int64_t kMaxExpansions = 400;
-/// Expansions of one search between two checks of the stop condition.
-constexpr std::int64_t kStopStride = 64;
+/// Expansions of one search, or passages, between two checks of the stop condition.
+constexpr int kStopStride = 64;
 /// Rank by which a robot is behind those who pass its goal, and how often ranks are raised because of others
 /// whose ranks were raised. Robots that wait for each other never come to an end.
 constexpr double kBehind = 1e-6;
@@ -183,7 +183,7 @@ class ExpectedArrivals {
         t += vertices.times().rotation_time(vertices.position(goal.vertex), heading, *goal.heading);
         heading = *goal.heading;
       }
-      t = std::max(t, space->goal(stage).not_before) + space->goal(stage).service;
+      t = space->goal(stage).service_end(t);
     }
     expected_[robot].has_way = true;
     expected_[robot].arrival = t;
@@ -225,9 +225,12 @@ class ExpectedArrivals {
   /// more ways are chosen.
   bool choose_way(std::size_t robot, const StopCondition& stop) {
     Expected& expected = expected_[robot];
+    StopStride stride(stop, kStopStride);
     std::erase_if(expected.passages, [&](const Passage& passage) {
+      if (stride.met_at_step()) return false;
       return !(delay(passage) > 0.0) || has_room_beside(robot, passage);
     });
+    if (stride.met()) return false;
     if (expected.passages.empty()) return true;
     SearchSpace* space = state_.memory().space_of(robot, stop);
     if (space == nullptr) return false;
@@ -238,7 +241,7 @@ class ExpectedArrivals {
         expected.passages = before;
         return !stop.met() && expansions_left_ > 0;
       }
-      t = std::max(t, space->goal(stage).not_before) + space->goal(stage).service;
+      t = space->goal(stage).service_end(t);
     }
     return true;
   }

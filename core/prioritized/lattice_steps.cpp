@@ -161,7 +161,7 @@ class TimedSteps {
       const Goal& goal = instance_.itinerary(robots_[k]).goals.front();
       double t = arrivals_[k];
       if (goal.theta) t += instance_.motion(robots_[k]).rotation_time(headings_[k], *goal.theta);
-      trajectories_[k].cost = std::max(t, goal.not_before) + goal.service;
+      trajectories_[k].cost = goal.service_end(t);
     }
     return std::move(trajectories_);
   }

@@ -47,10 +47,15 @@ double distance_to_goals(const Robot& robot) {
   return distance + (robot.goal->position - from).norm();
 }
 
+/// A time of a robot as it counts for its rank: of faster robots somewhat more.
+double with_speed_weight(const Robot& robot, double seconds) {
+  return seconds * std::pow(robot.linear_speed, 1.0 - kSpeedWeight);
+}
+
 }  // namespace
 
 double rank_by_time(const Robot& robot, double seconds) {
-  return seconds * std::pow(robot.linear_speed, 1.0 - kSpeedWeight) / robot.weight;
+  return with_speed_weight(robot, seconds) / robot.weight;
 }
 
 PriorityOrder initial_order(const Instance& instance, std::vector<std::size_t> robots, Random& random) {
@@ -59,19 +64,18 @@ PriorityOrder initial_order(const Instance& instance, std::vector<std::size_t> r
 
 PriorityOrder initial_order(const std::vector<Robot>& all, const PlanOptions& options,
                             std::vector<std::size_t> robots, Random& random) {
-  const auto rank = [](const Robot& robot) {
-    return rank_by_time(robot, distance_to_goals(robot) / robot.linear_speed);
-  };
+  const auto straight = [&](std::size_t i) { return distance_to_goals(all[i]) / all[i].linear_speed; };
   switch (options.priority) {
     case PlanOptions::Priority::shortest_first:
-      std::stable_sort(robots.begin(), robots.end(),
-                       [&](auto a, auto b) { return rank(all[a]) < rank(all[b]); });
+      std::stable_sort(robots.begin(), robots.end(), [&](auto a, auto b) {
+        return rank_by_time(all[a], straight(a)) < rank_by_time(all[b], straight(b));
+      });
       if (options.horizon) order_for_horizon(all, robots);
       break;
     case PlanOptions::Priority::longest_first:
-      // A heavy robot counts as farther from its goal.
       std::stable_sort(robots.begin(), robots.end(), [&](auto a, auto b) {
-        return rank(all[a]) * all[a].weight * all[a].weight > rank(all[b]) * all[b].weight * all[b].weight;
+        return with_speed_weight(all[a], straight(a)) * all[a].weight >
+               with_speed_weight(all[b], straight(b)) * all[b].weight;
       });
       break;
     case PlanOptions::Priority::random:

@@ -296,8 +296,8 @@ class Repair {
     return ejection_.plan(robot, planned_robots([](std::size_t) { return true; }), failures_);
   }
 
-  /// Plans a robot among fewer others; see repair_all(). Smaller robots are ignored before larger
-  /// ones, as they find another path more easily.
+  /// Plans a robot among fewer others; see repair_all(). Smaller robots are ignored before larger ones, as
+  /// they find another path more easily.
   SearchResult plan_among_fewer(std::size_t robot) {
     const double radius = state_.instance().motion(robot).pair_radius;
     const auto is_lower = [&](std::size_t other) { return rank_[other] > rank_[robot]; };

@@ -343,7 +343,7 @@ std::vector<Times> straight_times(const Robot& robot, const std::vector<OpenGoal
     t += (next.position - at).norm() / load.linear_speed;
     load = load_after(load, next);
     at = next.position;
-    t = std::max(t, next.not_before) + next.service;
+    t = next.service_end(t);
   };
   for (std::size_t k = itinerary.first_goal; k < goal; ++k) serve(robot.goal_at(k));
   const Position before = at;
@@ -356,7 +356,7 @@ std::vector<Times> straight_times(const Robot& robot, const std::vector<OpenGoal
     const double arrives = leaves + (pose.position - before).norm() / carried.linear_speed;
     load = load_after(carried, robot.goal_at(goal));
     at = pose.position;
-    t = std::max(arrives, robot.goal_at(goal).not_before) + robot.goal_at(goal).service;
+    t = robot.goal_at(goal).service_end(arrives);
     for (const Goal& next : after) serve(next);
     times.push_back({arrives, after.empty() ? arrives : t});
   }
