@@ -2,10 +2,16 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/core/support/planning.h"
+#include "tests/support/random_problem.h"
 
 namespace fleetplan::core {
 namespace TEST_FILE {
@@ -101,6 +107,50 @@ TEST(ExpectedArrivals, LeaveTheOrderAsItIsWhenStopped) {
   const ExpectedOrder expected = order_by_expected_arrival(p.state, {0, 1}, p.never);
   EXPECT_EQ(expected.robots, (PriorityOrder{1, 0}));
   EXPECT_FALSE(expected.cut_off);
+}
+
+/// Robot 0 goes to and fro on a line with the goals of a hundred others.
+Planning to_and_fro(int times) {
+  Robot robot = robot_at(0.5, 5.5).to(119.5, 5.5);
+  for (int k = 0; k < times; ++k) robot.via.push_back({{k % 2 == 0 ? 118.5 : 1.5, 5.5}, std::nullopt});
+  std::vector<Robot> robots{robot};
+  for (int k = 0; k < 100; ++k) robots.push_back(robot_at(4.5 + k, 7.5).to(4.5 + k, 5.5));
+  return Planning(OccupancyGrid(120, 11, 1.0), std::move(robots));
+}
+
+TEST(ExpectedArrivals, AskTheStopConditionWhileTheyLookAtManyPassages) {
+  const auto steps = [](int times) {
+    Planning p = to_and_fro(times);
+    const StopCondition far(StopCondition::Clock::now() + std::chrono::hours(1));
+    step_clock = {};
+    order_by_expected_arrival(p.state, p.movers(), far);
+    const std::int64_t taken = step_clock.steps;
+    step_clock = {};
+    return taken;
+  };
+  EXPECT_GT(steps(400) - steps(200), 200 * 3) << "for each way, less than 2.5 without its passages";
+}
+
+TEST(ExpectedArrivals, AreAnOrderThatIsTheSameEachTimeOnRandomProblems) {
+  int changed = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    support::Dice dice(seed);
+    const Problem problem = support::random_problem(dice, 12);
+    PlanOptions options = support::random_options(dice, problem);
+    options.horizon.reset();
+    const auto expected = [&] {
+      Planning p(problem, options);
+      return order_by_expected_arrival(p.state, p.movers(), p.never);
+    };
+    const ExpectedOrder first = expected();
+    EXPECT_FALSE(first.cut_off);
+    EXPECT_EQ(expected().robots, first.robots);
+    const PriorityOrder movers = Planning(problem, options).movers();
+    EXPECT_TRUE(std::is_permutation(first.robots.begin(), first.robots.end(), movers.begin(), movers.end()));
+    if (first.robots != movers) ++changed;
+  }
+  EXPECT_GT(changed, 100);
 }
 
 }  // namespace TEST_FILE

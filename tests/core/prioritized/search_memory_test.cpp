@@ -30,6 +30,17 @@ void search_back(SearchSpaces& spaces, std::size_t robot) {
   ASSERT_GT(space.bytes(), 0);
 }
 
+/// The memory of a job with three robots.
+struct JobMemory {
+  /// Leaves so little that spaces are discarded, although the job is not short of memory yet.
+  void use_most() { account.count(account.limit() * 23 / 32); }
+
+  MemoryAccount account{1 << 20};
+  const MemoryScope scope{&account};
+  const Planning p = three_robots();
+  SearchSpaces spaces{p.instance};
+};
+
 TEST(SearchSpaces, AreKeptFromSearchToSearch) {
   const Planning p = three_robots();
   SearchSpaces spaces(p.instance);
@@ -39,40 +50,34 @@ TEST(SearchSpaces, AreKeptFromSearchToSearch) {
 }
 
 TEST(SearchSpaces, DiscardTheLeastRecentlyUsedWithoutMemory) {
-  const Planning p = three_robots();
-  MemoryAccount account(1 << 20);
-  const MemoryScope scope(&account);
-  SearchSpaces spaces(p.instance);
+  JobMemory memory;
+  SearchSpaces& spaces = memory.spaces;
   search_back(spaces, 0);
   search_back(spaces, 1);
   spaces.of(0, StopCondition::never());
-  account.count(account.limit() * 23 / 32);
+  memory.use_most();
   spaces.of(2, StopCondition::never());
   EXPECT_GT(spaces.of(0, StopCondition::never())->bytes(), 0);
   EXPECT_EQ(spaces.of(1, StopCondition::never())->bytes(), 0);
 }
 
 TEST(SearchSpaces, DiscardThoseFirstThatAreUsedLast) {
-  const Planning p = three_robots();
-  MemoryAccount account(1 << 20);
-  const MemoryScope scope(&account);
-  SearchSpaces spaces(p.instance);
+  JobMemory memory;
+  SearchSpaces& spaces = memory.spaces;
   for (const std::size_t robot : {0u, 1u}) search_back(spaces, robot);
   spaces.expect_use(1, 5);
   spaces.expect_use(0, 3);
-  account.count(account.limit() * 23 / 32);
+  memory.use_most();
   spaces.of(2, StopCondition::never());
   EXPECT_GT(spaces.of(0, StopCondition::never())->bytes(), 0);
   EXPECT_EQ(spaces.of(1, StopCondition::never())->bytes(), 0) << "used after 0, although less long ago";
 }
 
 TEST(SearchSpaces, KeepTheOneInUseWhenMemoryIsNearlyShort) {
-  const Planning p = three_robots();
-  MemoryAccount account(1 << 20);
-  const MemoryScope scope(&account);
-  SearchSpaces spaces(p.instance);
+  JobMemory memory;
+  SearchSpaces& spaces = memory.spaces;
   search_back(spaces, 0);
-  account.count(account.limit() * 23 / 32);
+  memory.use_most();
   EXPECT_GT(spaces.of(0, StopCondition::never())->bytes(), 0);
 }
 
