@@ -161,7 +161,7 @@ bool WorkspacePool::add_moves() {
     return false;
   }
   options_ = options;
-  callers_ = std::move(idle_.front());
+  if (!idle_.empty()) callers_ = std::move(idle_.front());
   idle_.clear();
   idle_.push_back(std::move(first));
   return true;

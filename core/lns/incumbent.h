@@ -126,9 +126,9 @@ class WorkspacePool {
   std::unique_ptr<Workspace> take();
   void give_back(std::unique_ptr<Workspace> workspace);
   /// From now on, vertices have twice as many neighbours: searches take longer, and find better ways around
-  /// others. Returns false, and nothing changes, without any-angle moves, with a horizon, where the lattice
-  /// is refined, which would take time again, and if time or memory do not suffice. All workspaces have been
-  /// given back; that with the caller's state leaves the pool.
+  /// others. Returns false, and they keep theirs, if they have 32, without any-angle moves, with a horizon,
+  /// where the lattice is refined, which would take time again, and if time or memory do not suffice. All
+  /// workspaces have been given back; that with the caller's state leaves the pool.
   bool add_moves();
   /// Updates the workspace with the caller's state, with other trajectories for some robots. All workspaces
   /// have been given back, and the incumbent does not change.

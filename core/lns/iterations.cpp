@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace fleetplan::core {
@@ -215,6 +216,10 @@ constexpr std::size_t kIterationsPerAnyGain = 4;
 /// A change may make the flowtime longer by this share of the mean delay of the robots, which leads out of
 /// local optima (threshold accepting; Dueck and Scheuer, 1990).
 constexpr double kMostLossShare = 0.2;
+/// Vain iterations for each robot until the search strays: from then on, the loss doubles with as many
+/// iterations as there are robots. After kDoublings it returns to the best plan, and strays again.
+constexpr int kPatience = 4;
+constexpr int kDoublings = 8;
 
 }  // namespace
 
@@ -240,7 +245,7 @@ double Iterations::most_loss() const {
   const auto count = static_cast<double>(incumbent_.planned().size());
   double delays = 0.0;
   for (const std::size_t robot : incumbent_.planned()) delays += exhaustion_.delay(robot);
-  return kMostLossShare * delays / count;
+  return kMostLossShare * delays / count * std::exp2(straying_ / count);
 }
 
 std::size_t Iterations::choose_delayed() {
@@ -259,12 +264,31 @@ void Iterations::run(Iteration& iteration, Workspace& workspace) const {
 }
 
 bool Iterations::accept(Iteration& iteration, Workspace& workspace) {
+  ++vain_;
+  const bool is_best = adopt(iteration, workspace);
+  if (is_best) {
+    vain_ = straying_ = 0;
+  } else if (!for_makespan_) {
+    return_to_best_in_time();
+  }
+  return is_best;
+}
+
+bool Iterations::adopt(Iteration& iteration, Workspace& workspace) {
   std::optional<Change>& change = iteration.result.change;
-  const bool accepted = change && !is_outdated(iteration, workspace);
+  const bool adopted = change && !is_outdated(iteration, workspace);
   learn(iteration);
-  if (!accepted) return false;
+  if (!adopted) return false;
   for (Change::Part& part : change->parts) best_.replace(part.robot, std::move(part.trajectory));
   return best_.changed(change->gain);
+}
+
+/// Small changes that gain do not lead out of every plan, so the search strays farther and farther.
+void Iterations::return_to_best_in_time() {
+  const auto robots = static_cast<int>(incumbent_.planned().size());
+  if (vain_ <= kPatience * robots || ++straying_ < kDoublings * robots) return;
+  best_.restore();
+  straying_ = 0;
 }
 
 void Iterations::learn(const Iteration& iteration) {

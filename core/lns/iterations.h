@@ -172,6 +172,8 @@ class Iterations {
   /// Learns from the result and makes its change to the incumbent, unless changes made since choose()
   /// conflict with it. Returns whether the incumbent is the best plan so far. The workspace may be updated.
   bool accept(Iteration& iteration, Workspace& workspace);
+  /// Iterations since the incumbent has been the best plan so far.
+  int vain() const { return vain_; }
 
   BestPlan& best() { return best_; }
 
@@ -179,6 +181,8 @@ class Iterations {
   double most_loss() const;
   std::size_t choose_delayed();
   void learn(const Iteration& iteration);
+  bool adopt(Iteration& iteration, Workspace& workspace);
+  void return_to_best_in_time();
   bool is_outdated(const Iteration& iteration, Workspace& workspace) const;
 
   Incumbent& incumbent_;
@@ -190,6 +194,8 @@ class Iterations {
   BestPlan best_;
   AdaptiveParameters parameters_;
   DelayedChoice first_robots_;
+  int vain_ = 0;
+  int straying_ = 0;  // iterations with more and more loss
 };
 
 }  // namespace fleetplan::core

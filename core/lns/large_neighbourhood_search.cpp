@@ -28,8 +28,8 @@ constexpr std::size_t kMaxThreads = 4;
 /// Steps of a round with a report before it, and without: at its end, threads wait for each other.
 constexpr std::size_t kReportedRound = 32;
 constexpr std::size_t kRound = 1024;
-/// Steps for each robot before vertices get more neighbours (WorkspacePool::add_moves): first, as many
-/// improvements as possible count, later, good ones.
+/// Steps for each robot before vertices get more neighbours (WorkspacePool::add_moves), and twice as many
+/// before they get more again: first, as many improvements as possible count, later, good ones.
 constexpr std::size_t kStepsPerRobot = 8;
 /// Iterations without an improvement after which it is tested whether one is possible.
 constexpr int kVainIterations = 32;
@@ -56,7 +56,8 @@ class LargeNeighbourhoodSearch {
         exhaustion_(incumbent_, bounds, is_for_makespan(state)),
         iterations_(incumbent_, exhaustion_, bounds, random, stop, is_for_makespan(state)),
         steps_(lag(state, incumbent_.planned().size())),
-        steps_before_more_moves_(kStepsPerRobot * incumbent_.planned().size()),
+        steps_with_moves_(kStepsPerRobot * incumbent_.planned().size()),
+        steps_before_more_moves_(steps_with_moves_),
         workspaces_(state, incumbent_, stop),
         executor_(executor),
         stop_(stop) {}
@@ -100,13 +101,15 @@ class LargeNeighbourhoodSearch {
   /// this depends on the steps before alone.
   std::size_t steps_of_round(std::size_t most) {
     if (steps_before_more_moves_ == 0) add_moves();
-    return asked_for_moves_ ? most : std::min(most, steps_before_more_moves_);
+    return may_add_moves_ ? std::min(most, steps_before_more_moves_) : most;
   }
 
   void add_moves() {
-    if (asked_for_moves_) return;
-    asked_for_moves_ = true;
-    if (may_help_ && workspaces_.add_moves()) exhaustion_.forget();
+    if (!may_add_moves_) return;
+    steps_with_moves_ *= 2;
+    steps_before_more_moves_ = steps_with_moves_;
+    may_add_moves_ = may_help_ && workspaces_.add_moves();
+    if (may_add_moves_) exhaustion_.forget();
     shortages_ = memory_shortages();
   }
 
@@ -153,7 +156,7 @@ class LargeNeighbourhoodSearch {
     if (is_over_) return std::nullopt;
     workspace.update();
     Step step;
-    if (vain_iterations_ >= kVainIterations) step.test = exhaustion_.next_test(result_.expansions);
+    if (iterations_.vain() >= kVainIterations) step.test = exhaustion_.next_test(result_.expansions);
     if (steps_before_more_moves_ > 0) --steps_before_more_moves_;
     if (step.test) return step;
     --iterations_left_;
@@ -171,11 +174,7 @@ class LargeNeighbourhoodSearch {
 
   void complete(Step& step, Workspace& workspace) {
     if (step.test) return exhaustion_.learn(*step.test);
-    ++vain_iterations_;
-    if (iterations_.accept(step.iteration, workspace)) {
-      ++result_.improvements;
-      vain_iterations_ = 0;
-    }
+    if (iterations_.accept(step.iteration, workspace)) ++result_.improvements;
     result_.expansions += step.iteration.result.expansions;
   }
 
@@ -208,13 +207,13 @@ class LargeNeighbourhoodSearch {
   Exhaustion exhaustion_;
   Iterations iterations_;
   Pipeline<Step> steps_;
+  std::size_t steps_with_moves_;  // with the neighbours that vertices have now
   std::size_t steps_before_more_moves_;
-  bool asked_for_moves_ = false;  // whether there are more moves now or not
+  bool may_add_moves_ = true;
   WorkspacePool workspaces_;
   Executor& executor_;
   const StopCondition& stop_;
   std::int64_t iterations_left_ = 0;
-  int vain_iterations_ = 0;
   LnsResult result_;
   std::atomic<bool> is_over_ = false;  // the round is over
   bool may_improve_ = true;            // the last answer of the executor

@@ -46,7 +46,8 @@ using BeforeRound = std::function<void(const LnsResult& so_far)>;
 /// conflict with a change accepted meanwhile. So the number of threads changes only the speed. The executor
 /// may make the search wait, which changes nothing either, or end it (see Executor::may_improve). Rounds are
 /// a fixed number of iterations; at the end of one, threads wait for each other. After some iterations for
-/// each robot, or sooner if nothing else is left, vertices get more neighbours (WorkspacePool::add_moves).
+/// each robot, and after more of them again, or sooner if nothing else is left, vertices get more neighbours
+/// (WorkspacePool::add_moves).
 LnsResult large_neighbourhood_search(PlanState& state, const std::vector<std::size_t>& movers,
                                      const TautPathBounds& bounds, Random& random, Executor& executor,
                                      const StopCondition& stop, const BeforeRound& before_round = nullptr);

@@ -3,7 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <memory>
+#include <utility>
 #include <vector>
+
+#include "tests/core/support/planning.h"
 
 namespace fleetplan::core {
 namespace TEST_FILE {
@@ -91,6 +95,74 @@ TEST(DelayedChoice, ReducesFailuresAfterAGain) {
 
 TEST(DelayedChoice, ChoosesARobotWithoutDelays) {
   EXPECT_EQ(chosen(DelayedChoice(4), {1, 3}, {0.0, 0.0})[3], 1000);
+}
+
+/// Two robots that set out 10 s late.
+struct LateRobots : Planning {
+  static Trajectory row(double y, double departure) { return through({{0.5, y}, {8.5, y}}, departure); }
+
+  LateRobots()
+      : Planning(OccupancyGrid(9, 9, 1.0),
+                 {support::robot_at(0.5, 2.5).to(8.5, 2.5), support::robot_at(0.5, 6.5).to(8.5, 6.5)}) {
+    reservations.follow(0, row(2.5, 10.0));
+    reservations.follow(1, row(6.5, 10.0));
+  }
+};
+
+struct IterationsOfLateRobots : LateRobots {
+  /// Completes so many iterations without a change.
+  void in_vain(int count) {
+    for (int k = 0; k < count; ++k) {
+      Iteration iteration = iterations.choose();
+      EXPECT_FALSE(iterations.accept(iteration, *workspace));
+    }
+  }
+  double most_loss() { return iterations.choose().options.most_loss; }
+  /// Completes an iteration that lets robot 0 set out at `departure`.
+  bool let_depart(double departure) {
+    Iteration iteration = iterations.choose();
+    Trajectory changed = row(2.5, departure);
+    const double gain = incumbent.cost(0) - changed.cost;
+    iteration.result.change = Change{{{0, std::move(changed)}}, gain};
+    return iterations.accept(iteration, *workspace);
+  }
+
+  Incumbent incumbent{state, movers()};
+  TautPathBounds bounds{instance, movers(), std::vector<double>(instance.size(), kForever), never};
+  Exhaustion exhaustion{incumbent, bounds, false};
+  Iterations iterations{incumbent, exhaustion, bounds, random, never, false};
+  WorkspacePool pool{state, incumbent, never};
+  std::unique_ptr<Workspace> workspace = pool.take();
+};
+
+TEST(Iterations, StrayFartherTheLongerTheyAreInVain) {
+  IterationsOfLateRobots p;
+  const double least = p.most_loss();
+  EXPECT_GT(least, 0.0);
+  p.in_vain(8);
+  EXPECT_EQ(p.most_loss(), least) << "four for each robot";
+  p.in_vain(2);
+  EXPECT_DOUBLE_EQ(p.most_loss(), 2.0 * least) << "one more for each";
+  p.in_vain(4);
+  EXPECT_DOUBLE_EQ(p.most_loss(), 8.0 * least);
+  EXPECT_TRUE(p.let_depart(9.0));
+  EXPECT_LE(p.most_loss(), least) << "a better plan";
+}
+
+TEST(Iterations, ReturnToTheBestPlanAfterTheyHaveStrayed) {
+  IterationsOfLateRobots p;
+  const double least = p.most_loss();
+  p.in_vain(20);
+  EXPECT_FALSE(p.let_depart(60.0));
+  EXPECT_EQ(p.incumbent.cost(0), LateRobots::row(2.5, 60.0).cost);
+  p.in_vain(2);
+  EXPECT_EQ(p.incumbent.cost(0), LateRobots::row(2.5, 60.0).cost);
+  p.in_vain(1);
+  EXPECT_EQ(p.incumbent.cost(0), LateRobots::row(2.5, 10.0).cost) << "as at first";
+  EXPECT_DOUBLE_EQ(p.most_loss(), least);
+  EXPECT_EQ(p.iterations.vain(), 24) << "it counts from the best plan on";
+  p.in_vain(2);
+  EXPECT_DOUBLE_EQ(p.most_loss(), 2.0 * least) << "they stray again at once";
 }
 
 }  // namespace TEST_FILE

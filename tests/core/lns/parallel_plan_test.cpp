@@ -76,6 +76,21 @@ TEST_P(PlanInParallel, ReturnsTheSamePlanForRandomFleets) {
   }
 }
 
+/// Long enough for more moves twice, and for the search to stray and to return to its best plan.
+TEST_P(PlanInParallel, ReturnsTheSamePlanForSmallFleetsAfterManyIterations) {
+  for (std::uint64_t seed = 20; seed < 24; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    support::Dice dice(seed);
+    const Problem problem = support::random_problem(dice, 5);
+    const PlanOptions options = anytime(400, GetParam());
+    support::ThreadedExecutor executor(4);
+    const Plan together = plan(problem, options, StopCondition::never(), executor);
+    ASSERT_EQ(support::exact_text(together),
+              support::exact_text(plan(problem, options, StopCondition::never())));
+    support::expect_safe(problem, together);
+  }
+}
+
 TEST_P(PlanInParallel, ReturnsTheSamePlanWithAnObserver) {
   const Problem problem = roundabout();
   const PlanOptions options = anytime(200, GetParam());
