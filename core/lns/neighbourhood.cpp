@@ -13,7 +13,7 @@ bool contains(const std::vector<std::size_t>& robots, std::size_t robot) {
 }
 
 Position position_at(const Trajectory& trajectory, double time) {
-  for (const TimedSegment& move : trajectory.moves) {
+  for (const TimedMove& move : trajectory.moves) {
     if (time < move.t_start) return move.path.from;
     if (time < move.t_end) {
       const double fraction = (time - move.t_start) / move.duration();
@@ -25,7 +25,7 @@ Position position_at(const Trajectory& trajectory, double time) {
 
 double distance_to(const Position& point, const Trajectory& trajectory) {
   double least = (trajectory.start - point).norm();
-  for (const TimedSegment& move : trajectory.moves) {
+  for (const TimedMove& move : trajectory.moves) {
     least = std::min(least, distance_to_segment(point, move.path));
   }
   return least;

@@ -70,10 +70,8 @@ Trajectory committed_trajectory(const Robot& robot) {
   trajectory.start = robot.start.position;
   for (const Action& action : robot.committed) {
     if (action.type != Action::Type::translate || action.from.position == action.to.position) continue;
-    trajectory.moves.push_back({{action.from.position, action.to.position}, action.t_start, action.t_end});
-    if (!action.profile) continue;
-    trajectory.profiles.resize(trajectory.moves.size());
-    trajectory.profiles.back() = action.profile;
+    const Segment path{action.from.position, action.to.position};
+    trajectory.moves.push_back({{path, action.t_start, action.t_end}, action.profile, action.reverse});
   }
   trajectory.cost = robot.committed_until();
   return trajectory;

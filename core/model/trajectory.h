@@ -16,20 +16,24 @@ struct Visit {
   double t_leave = 0.0;   // the end of the service; kForever at the last goal, where the robot stays
 };
 
+/// A straight move of a robot. One of no length leads from a place off the lattice to the vertex there.
+struct TimedMove : TimedSegment {
+  std::optional<SpeedProfile> profile = {};  // nullopt: at constant speed
+  bool reverse = false;                      // backwards
+  /// Of a planned move: it follows the one before without a stop, straight on, at another speed or with a
+  /// profile of its own.
+  bool continues = false;
+};
+
 /// The motion of one robot's centre from t = 0 on, committed moves included. It waits between moves and stays
 /// at the end of the last one. Rotations and services take place during the waits.
 struct Trajectory {
   Position start{0.0, 0.0};
-  std::vector<TimedSegment> moves;  // in order of time, each from the end of the previous one; lengths > 0
+  std::vector<TimedMove> moves;  // in order of time, each from the end of the previous one
   double cost = 0.0;  // seconds until it rests in the goal pose, the last rotation and service included
   std::vector<Visit> visits = {};  // to goals of Robot::via, after the committed actions
-  std::vector<bool> reverse = {};  // by move: whether it is backwards; missing ones are not
   /// Seconds: the end of the service at the last goal, if the robot has another radius from then on.
   double last_served = kForever;
-  /// `goes_on[k]`: move k follows move k - 1 without a stop, straight on, at another speed or with a profile
-  /// of its own; missing ones do not.
-  std::vector<bool> goes_on = {};
-  std::vector<std::optional<SpeedProfile>> profiles = {};  // by move; missing ones are at constant speed
   /// Seconds: the plan stops here, at or after the horizon, with goals left. `cost` is then an estimate: it
   /// includes the static way that is left.
   std::optional<double> stops_at = {};
@@ -40,11 +44,6 @@ struct Trajectory {
   bool gains_nothing = false;
   bool is_previous = false;  // the motion of Robot::previous: its actions are those received
 
-  bool is_reverse(std::size_t move) const { return move < reverse.size() && reverse[move]; }
-  bool continues(std::size_t move) const { return move < goes_on.size() && goes_on[move]; }
-  const SpeedProfile* profile(std::size_t move) const {
-    return move < profiles.size() && profiles[move] ? &*profiles[move] : nullptr;
-  }
   Position end() const { return moves.empty() ? start : moves.back().path.to; }
 };
 
@@ -56,11 +55,10 @@ inline std::vector<TimedSegment> timed_segments(const Trajectory& trajectory) {
   double now = 0.0;
   Position here = trajectory.start;
   // Bounded: the moves of one trajectory, and at most three phases of each.
-  for (std::size_t k = 0; k < trajectory.moves.size(); ++k) {
-    const TimedSegment& move = trajectory.moves[k];
+  for (const TimedMove& move : trajectory.moves) {
     if (move.t_start > now) segments.push_back({{here, here}, now, move.t_start});
-    if (const SpeedProfile* profile = trajectory.profile(k)) {
-      for (const TimedSegment& phase : phases(move, *profile)) segments.push_back(phase);
+    if (move.profile) {
+      for (const TimedSegment& phase : phases(move, *move.profile)) segments.push_back(phase);
     } else {
       segments.push_back(move);
     }

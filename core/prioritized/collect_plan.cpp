@@ -186,10 +186,10 @@ class ActionList {
     const bool serves = goal.service > 0.0 || goal.not_before > 0.0;
     if (goal.theta || serves) wait(t_leave, serves ? std::optional(robot_.via.size()) : std::nullopt);
   }
-  void translate(const TimedSegment& move, const SpeedProfile* profile, bool reverse) {
+  void translate(const TimedMove& move) {
     append(Action::Type::translate, move.t_end, {move.path.to, pose_.theta}, {});
-    actions_.back().reverse = reverse;
-    if (profile != nullptr) actions_.back().profile = *profile;
+    actions_.back().reverse = move.reverse;
+    actions_.back().profile = move.profile;
   }
   void wait(double t_end, std::optional<std::size_t> goal) {
     if (t_end - now_ > kNegligible) append(Action::Type::wait, t_end, pose_, goal);
@@ -226,15 +226,15 @@ class ActionList {
 std::size_t first_planned_move(const Robot& robot, const Trajectory& trajectory) {
   const double t_begin = robot.committed_until();
   const auto first = std::find_if(trajectory.moves.begin(), trajectory.moves.end(),
-                                  [&](const TimedSegment& move) { return move.t_start >= t_begin; });
+                                  [&](const TimedMove& move) { return move.t_start >= t_begin; });
   return static_cast<std::size_t>(first - trajectory.moves.begin());
 }
 
 /// The direction of a move and of those that go on from it.
-double heading_from(const Trajectory& trajectory, std::size_t move) {
-  std::size_t last = move;
-  while (trajectory.continues(last + 1)) ++last;
-  const Position direction = trajectory.moves[last].path.to - trajectory.moves[move].path.from;
+double heading_from(const std::vector<TimedMove>& moves, std::size_t first) {
+  std::size_t last = first;
+  while (last + 1 < moves.size() && moves[last + 1].continues) ++last;
+  const Position direction = moves[last].path.to - moves[first].path.from;
   return normalize_angle(std::atan2(direction.y(), direction.x()));
 }
 
@@ -244,16 +244,15 @@ std::vector<Action> to_actions(const Robot& robot, const Trajectory& trajectory,
   ActionList list(robot, zones);
   auto visit = trajectory.visits.begin();
   for (std::size_t k = first_planned_move(robot, trajectory); k < trajectory.moves.size(); ++k) {
-    const TimedSegment& move = trajectory.moves[k];
+    const TimedMove& move = trajectory.moves[k];
     for (; visit != trajectory.visits.end() && visit->t_leave <= move.t_start; ++visit) list.visit(*visit);
-    const bool reverse = trajectory.is_reverse(k);
     const bool moves = move.path.from != move.path.to;
-    if (!trajectory.continues(k)) {
-      const double direction = heading_from(trajectory, k);
-      const double heading = reverse ? opposite_heading(direction) : direction;
+    if (!move.continues) {
+      const double direction = heading_from(trajectory.moves, k);
+      const double heading = move.reverse ? opposite_heading(direction) : direction;
       moves ? list.rotate_and_wait(heading, move.t_start) : list.turn(heading, move.t_start);
     }
-    if (moves) list.translate(move, trajectory.profile(k), reverse);
+    if (moves) list.translate(move);
   }
   for (; visit != trajectory.visits.end(); ++visit) list.visit(*visit);
   if (trajectory.stops_at) {

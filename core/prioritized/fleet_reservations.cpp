@@ -123,7 +123,7 @@ bool FleetReservations::is_reserved(std::size_t robot, const Snapshot& among) co
          std::equal(now->visits.begin(), now->visits.end(), other->visits.begin(), other->visits.end(),
                     same_visit) &&
          std::equal(now->moves.begin(), now->moves.end(), other->moves.begin(), other->moves.end(),
-                    [](const TimedSegment& a, const TimedSegment& b) {
+                    [](const TimedMove& a, const TimedMove& b) {
                       return a.t_start == b.t_start && a.t_end == b.t_end && a.path.to == b.path.to;
                     });
 }

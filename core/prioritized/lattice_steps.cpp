@@ -235,10 +235,9 @@ class TimedSteps {
       trajectory.moves.back().path.to = path.to;
       trajectory.moves.back().t_end = arrival;
     } else {
-      trajectory.moves.push_back({path, departure, arrival});
+      TimedMove& move = trajectory.moves.emplace_back(TimedMove{{path, departure, arrival}});
       if (motion.linear_inertia.is_limited) {
-        trajectory.profiles.emplace_back(
-            fastest_profile(way.length, motion.linear_speed, motion.linear_inertia));
+        move.profile = fastest_profile(way.length, motion.linear_speed, motion.linear_inertia);
       }
     }
     Vertex& left = at(from);

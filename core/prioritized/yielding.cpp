@@ -63,7 +63,7 @@ SearchResult plan_making_way(PlanState& state, std::size_t robot, std::size_t ot
 
 bool makes_way(const FleetReservations& reservations, std::size_t robot) {
   if (!reservations.instance().robot(robot).yields() || !reservations.trajectory(robot)) return false;
-  const std::vector<TimedSegment>& moves = reservations.trajectory(robot)->moves;
+  const std::vector<TimedMove>& moves = reservations.trajectory(robot)->moves;
   const auto done = done_from(reservations, robot);
   return done && !moves.empty() && moves.back().t_start >= *done;
 }

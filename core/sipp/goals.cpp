@@ -179,7 +179,6 @@ class PathToTrajectory {
   std::vector<LabelId> path_to(LabelId last) const;
   void append_move(const Label& from, const Label& to);
   void append_pieces(const std::vector<DriveZones::Piece>& pieces, const Label& to, bool continues);
-  void append(const TimedSegment& move, const std::optional<SpeedProfile>& profile, bool reverse);
   void append_service(const Label& from, const Label& to);
   void stop_at_rest(const Label& first, const Label& last);
   double time_left(const Label& label) const;
@@ -235,20 +234,20 @@ void PathToTrajectory::append_move(const Label& from, const Label& to) {
     trajectory_.moves.back().path.to = way.to;
     trajectory_.moves.back().t_end = to.arrival;
   } else {
-    append({way, to.departure, to.arrival}, std::nullopt, to.reverse);
+    trajectory_.moves.push_back({{way, to.departure, to.arrival}, {}, to.reverse});
   }
 }
 
-/// Appends the pieces of the move to a label, each with Trajectory::goes_on: move k follows move k - 1
-/// without a stop. The first one that continues the last move, at the same speed, is joined to that.
+/// Appends the pieces of the move to a label. If the first one continues the last move at the same speed, it
+/// is joined to that.
 void PathToTrajectory::append_pieces(const std::vector<DriveZones::Piece>& pieces, const Label& to,
                                      bool continues) {
   constexpr double kSameSpeed = 1e-9;  // relative; far above rounding
   for (const DriveZones::Piece& piece : pieces) {
     const double t_end = &piece == &pieces.back() ? to.arrival : to.departure + piece.end;
-    const bool goes_on = continues || &piece != &pieces.front();
-    if (goes_on && &piece == &pieces.front() && !piece.profile) {
-      TimedSegment& last = trajectory_.moves.back();
+    const bool is_first = &piece == &pieces.front();
+    if (is_first && continues && !piece.profile) {
+      TimedMove& last = trajectory_.moves.back();
       const double speed = last.path.length() / last.duration();
       if (std::abs(speed - piece.linear_speed) <= kSameSpeed * speed) {
         last.path.to = piece.path.to;
@@ -256,23 +255,9 @@ void PathToTrajectory::append_pieces(const std::vector<DriveZones::Piece>& piece
         continue;
       }
     }
-    append({piece.path, to.departure + piece.begin, t_end}, piece.profile, to.reverse);
-    if (!goes_on) continue;
-    trajectory_.goes_on.resize(trajectory_.moves.size(), false);
-    trajectory_.goes_on.back() = true;
+    const TimedSegment segment{piece.path, to.departure + piece.begin, t_end};
+    trajectory_.moves.push_back({segment, piece.profile, to.reverse, continues || !is_first});
   }
-}
-
-void PathToTrajectory::append(const TimedSegment& move, const std::optional<SpeedProfile>& profile,
-                              bool reverse) {
-  trajectory_.moves.push_back(move);
-  if (profile) {
-    trajectory_.profiles.resize(trajectory_.moves.size());
-    trajectory_.profiles.back() = profile;
-  }
-  if (!reverse) return;
-  trajectory_.reverse.resize(trajectory_.moves.size(), false);
-  trajectory_.reverse.back() = true;
 }
 
 void PathToTrajectory::append_service(const Label& from, const Label& to) {

@@ -31,7 +31,7 @@ constexpr SearchLimits kExact{
 
 double metres_of(const Trajectory& trajectory) {
   double metres = 0.0;
-  for (const TimedSegment& move : trajectory.moves) metres += move.path.length();
+  for (const TimedMove& move : trajectory.moves) metres += move.path.length();
   return metres;
 }
 

@@ -65,7 +65,7 @@ class RandomFixed : public testing::TestWithParam<int> {
       if (dice.chance(0.5)) now += dice.between(0.0, 3.0);
       const Position to = place();
       const double arrival = now + (to - trajectory.end()).norm() / dice.between(0.8, 2.0);
-      trajectory.moves.push_back({{trajectory.end(), to}, now, arrival});
+      trajectory.moves.push_back({{{trajectory.end(), to}, now, arrival}});
       now = arrival;
     }
     return trajectory;
@@ -260,7 +260,7 @@ TEST_P(NearStarts, DoNotComeNearerWhileBothLeave) {
     ReservationTable table(kSize, kSize, 1.0, disks_of({kRadius, kRadius}), &contacts);
     const double leaves = dice.between(0.0, 3.0);
     const Segment theirs{b, b + 3.0 * direction()};
-    const std::vector<TimedSegment> moves{{theirs, leaves, leaves + 3.0}};
+    const std::vector<TimedMove> moves{{{theirs, leaves, leaves + 3.0}}};
     table.reserve(1, sized(timed_segments({b, moves, 0.0}), kRadius));
     ASSERT_GE(table.safe_intervals({0, kRadius}, a).front().end, leaves) << "both may stand there";
     const Segment mine{a, a + 3.0 * direction()};

@@ -23,7 +23,7 @@ MovingObstacle obstacle(std::vector<MovingObstacle::Entry> motion,
 }
 
 std::vector<SizedSegment> drive(const Position& from, const Position& to, double t_start, double t_end) {
-  return sized(timed_segments({from, {{{from, to}, t_start, t_end}}, t_end}), kRadius);
+  return sized(timed_segments({from, {{{{from, to}, t_start, t_end}}}, t_end}), kRadius);
 }
 
 std::vector<SizedSegment> stand(const Position& at) { return sized(timed_segments({at, {}, 0.0}), kRadius); }

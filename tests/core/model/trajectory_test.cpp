@@ -26,7 +26,7 @@ TEST(TimedSegments, AreOneEndlessWaitForARobotAtRest) {
 }
 
 TEST(TimedSegments, FillTheGapsBetweenMovesWithWaits) {
-  const Trajectory trajectory{{0, 0}, {{{{0, 0}, {2, 0}}, 1.0, 3.0}, {{{2, 0}, {2, 1}}, 4.5, 5.5}}, 7.0};
+  const Trajectory trajectory{{0, 0}, {{{{{0, 0}, {2, 0}}, 1.0, 3.0}}, {{{{2, 0}, {2, 1}}, 4.5, 5.5}}}, 7.0};
   const auto segments = timed_segments(trajectory);
   expect_contiguous(segments);
   ASSERT_EQ(segments.size(), 5u);
@@ -38,7 +38,7 @@ TEST(TimedSegments, FillTheGapsBetweenMovesWithWaits) {
 }
 
 TEST(TimedSegments, HaveNoWaitBetweenContiguousMoves) {
-  const Trajectory trajectory{{0, 0}, {{{{0, 0}, {2, 0}}, 0.0, 2.0}, {{{2, 0}, {2, 1}}, 2.0, 3.0}}, 3.0};
+  const Trajectory trajectory{{0, 0}, {{{{{0, 0}, {2, 0}}, 0.0, 2.0}}, {{{{2, 0}, {2, 1}}, 2.0, 3.0}}}, 3.0};
   const auto segments = timed_segments(trajectory);
   expect_contiguous(segments);
   EXPECT_EQ(segments.size(), 3u);
@@ -46,7 +46,7 @@ TEST(TimedSegments, HaveNoWaitBetweenContiguousMoves) {
 
 TEST(Trajectory, EndsWhereItsLastMoveEnds) {
   EXPECT_EQ((Trajectory{{1, 2}, {}, 0.0}.end()), Position(1, 2));
-  EXPECT_EQ((Trajectory{{0, 0}, {{{{0, 0}, {2, 1}}, 0.0, 2.0}}, 2.0}.end()), Position(2, 1));
+  EXPECT_EQ((Trajectory{{0, 0}, {{{{{0, 0}, {2, 1}}, 0.0, 2.0}}}, 2.0}.end()), Position(2, 1));
 }
 
 TEST(TimedSegment, HasTheVelocityOfItsMotion) {

@@ -62,7 +62,7 @@ class RandomReservations : public testing::TestWithParam<int> {
       const Position to = dice.chance(0.3) ? Position(from.x(), dice.between(0, kHeight)) : place();
       if (dice.chance(0.6)) now += dice.between(0.0, 4.0);
       const double arrival = now + (to - from).norm() / dice.between(0.3, 3.0);
-      trajectory.moves.push_back({{from, to}, now, arrival});
+      trajectory.moves.push_back({{{from, to}, now, arrival}});
       now = arrival;
     }
     return trajectory;

@@ -22,7 +22,7 @@ std::vector<SizedSegment> segments(const Trajectory& trajectory) {
 }
 
 std::vector<SizedSegment> drive(const Position& from, const Position& to, double t_start, double t_end) {
-  return segments({from, {{{from, to}, t_start, t_end}}, t_end});
+  return segments({from, {{{{from, to}, t_start, t_end}}}, t_end});
 }
 
 std::vector<SizedSegment> stand(const Position& at) { return segments({at, {}, 0.0}); }
@@ -70,7 +70,8 @@ TEST(ReservationTable, CountsTheRadiusOfTheFootprintAndThatOfTheSegment) {
 TEST(ReservationTable, JoinsUnsafeIntervalsOfNeighbouringSegments) {
   ReservationTable table = table_of(2);
   const Position middle(5, 5);
-  table.reserve(1, segments({{1, 5}, {{{{1, 5}, middle}, 0.0, 4.0}, {{middle, {5, 9}}, 6.0, 10.0}}, 10.0}));
+  table.reserve(1,
+                segments({{1, 5}, {{{{{1, 5}, middle}, 0.0, 4.0}}, {{{middle, {5, 9}}, 6.0, 10.0}}}, 10.0}));
   const auto safe = table.safe_intervals({0, kRadius}, middle);
   ASSERT_EQ(safe.size(), 2u);
   EXPECT_NEAR(safe[0].end, 3.0, 1e-8);

@@ -72,7 +72,7 @@ inline Trajectory through(const std::vector<Position>& points, double departure 
   Trajectory trajectory{points.front(), {}, departure};
   for (std::size_t i = 1; i < points.size(); ++i) {
     const double arrival = trajectory.cost + (points[i] - points[i - 1]).norm();
-    trajectory.moves.push_back({{points[i - 1], points[i]}, trajectory.cost, arrival});
+    trajectory.moves.push_back({{{points[i - 1], points[i]}, trajectory.cost, arrival}});
     trajectory.cost = arrival;
   }
   return trajectory;
