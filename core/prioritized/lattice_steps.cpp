@@ -136,40 +136,44 @@ struct VertexStay {
 class TimedSteps {
  public:
   TimedSteps(const Instance& instance, const std::vector<std::size_t>& robots, const Lattice& lattice)
-      : instance_(instance),
-        robots_(robots),
-        lattice_(lattice),
-        vertices_(static_cast<std::size_t>(lattice.vertex_count())) {
+      : instance_(instance), lattice_(lattice), vertices_(static_cast<std::size_t>(lattice.vertex_count())) {
     for (const std::size_t robot : robots) {
       const Pose& pose = instance.itinerary(robot).pose;
-      trajectories_.push_back({pose.position, {}});
-      headings_.push_back(pose.theta);
-      arrivals_.push_back(0.0);
-      arriving_.emplace_back();
+      movers_.push_back({robot, {pose.position, {}}, pose.theta});
     }
   }
 
   void step(const Configuration& from, const Configuration& to) {
     for (std::size_t k = 0; k < from.size(); ++k) at(from[k]).robot = static_cast<int>(k);
-    is_done_.assign(from.size(), false);
+    for (Mover& mover : movers_) mover.is_done = false;
     for (std::size_t k = 0; k < from.size(); ++k) move_with_those_ahead(k, from, to);
     for (const int vertex : from) at(vertex).robot = kNobody;
   }
 
   std::vector<Trajectory> finish() {
-    for (std::size_t k = 0; k < robots_.size(); ++k) {
-      const Goal& goal = instance_.itinerary(robots_[k]).goals.front();
-      double t = arrivals_[k];
-      if (goal.theta) t += instance_.motion(robots_[k]).rotation_time(headings_[k], *goal.theta);
-      trajectories_[k].cost = goal.service_end(t);
+    std::vector<Trajectory> trajectories;
+    for (Mover& mover : movers_) {
+      const Goal& goal = instance_.itinerary(mover.robot).goals.front();
+      double t = mover.arrival;
+      if (goal.theta) t += instance_.motion(mover.robot).rotation_time(mover.heading, *goal.theta);
+      mover.trajectory.cost = goal.service_end(t);
+      trajectories.push_back(std::move(mover.trajectory));
     }
-    return std::move(trajectories_);
+    return trajectories;
   }
 
  private:
   static constexpr int kNobody = -1;
+  struct Mover {
+    std::size_t robot = 0;
+    Trajectory trajectory;
+    double heading = 0.0;
+    double arrival = 0.0;                     // seconds
+    std::vector<TimedSegment> arriving = {};  // the parts of the last step
+    bool is_done = false;                     // has been given its time in this step
+  };
   struct Vertex {
-    int robot = kNobody;      // which one, by its place in `robots`, begins the present step there
+    int robot = kNobody;      // which one, by its place in `movers_`, begins the present step there
     VertexStay last;          // of the last robot that left
     double others_until = 0;  // seconds: when the robots before that one have arrived elsewhere
   };
@@ -179,14 +183,14 @@ class TimedSteps {
   /// Those who leave vertices in this step go before those who come there.
   void move_with_those_ahead(std::size_t robot, const Configuration& from, const Configuration& to) {
     std::vector<std::size_t> chain;
-    for (int k = static_cast<int>(robot); k != kNobody;) {
-      const auto mover = static_cast<std::size_t>(k);
-      if (is_done_[mover] || from[mover] == to[mover]) break;
-      is_done_[mover] = true;
-      chain.push_back(mover);
-      k = at(to[mover]).robot;
+    for (int next = static_cast<int>(robot); next != kNobody;) {
+      const auto k = static_cast<std::size_t>(next);
+      if (movers_[k].is_done || from[k] == to[k]) break;
+      movers_[k].is_done = true;
+      chain.push_back(k);
+      next = at(to[k]).robot;
     }
-    for (auto mover = chain.rbegin(); mover != chain.rend(); ++mover) move(*mover, from[*mover], to[*mover]);
+    for (auto k = chain.rbegin(); k != chain.rend(); ++k) move(*k, from[*k], to[*k]);
   }
 
   /// The parts of a step from rest to rest that begins at time 0.
@@ -218,24 +222,25 @@ class TimedSteps {
   }
 
   void move(std::size_t k, int from, int to) {
-    const Motion& motion = instance_.motion(robots_[k]);
+    Mover& mover = movers_[k];
+    const Motion& motion = instance_.motion(mover.robot);
     const Segment path{lattice_.position(from), lattice_.position(to)};
     const Displacement way = lattice_.between(from, to);
     const double duration = motion.translation_time(way.length);
     std::vector<TimedSegment> step = parts(motion, path, duration);
     const double free = free_from(at(to), step, motion.pair_radius);
-    Trajectory& trajectory = trajectories_[k];
-    const bool goes_on = !trajectory.moves.empty() && !motion.linear_inertia.is_limited &&
-                         free <= arrivals_[k] && angle_between(headings_[k], way.heading) <= kSameHeading;
+    std::vector<TimedMove>& moves = mover.trajectory.moves;
+    const bool goes_on = !moves.empty() && !motion.linear_inertia.is_limited && free <= mover.arrival &&
+                         angle_between(mover.heading, way.heading) <= kSameHeading;
     const double turned =
-        arrivals_[k] + motion.rotation_time(headings_[k], way.heading) + motion.wait_before_move;
-    const double departure = goes_on ? arrivals_[k] : std::max(turned, free);
+        mover.arrival + motion.rotation_time(mover.heading, way.heading) + motion.wait_before_move;
+    const double departure = goes_on ? mover.arrival : std::max(turned, free);
     const double arrival = departure + duration;
     if (goes_on) {
-      trajectory.moves.back().path.to = path.to;
-      trajectory.moves.back().t_end = arrival;
+      moves.back().path.to = path.to;
+      moves.back().t_end = arrival;
     } else {
-      TimedMove& move = trajectory.moves.emplace_back(TimedMove{{path, departure, arrival}});
+      TimedMove& move = moves.emplace_back(TimedMove{{path, departure, arrival}});
       if (motion.linear_inertia.is_limited) {
         move.profile = fastest_profile(way.length, motion.linear_speed, motion.linear_inertia);
       }
@@ -244,27 +249,22 @@ class TimedSteps {
     if (!left.last.phases.empty()) {
       left.others_until = std::max(left.others_until, left.last.phases.back().t_end);
     }
-    left.last = {std::move(arriving_[k]), motion.pair_radius};
-    left.last.phases.push_back({{path.from, path.from}, arrivals_[k], departure});
+    left.last = {std::move(mover.arriving), motion.pair_radius};
+    left.last.phases.push_back({{path.from, path.from}, mover.arrival, departure});
     for (TimedSegment& part : step) {
       part.t_start += departure;
       part.t_end += departure;
       left.last.phases.push_back(part);
     }
-    arriving_[k] = std::move(step);
-    headings_[k] = way.heading;
-    arrivals_[k] = arrival;
+    mover.arriving = std::move(step);
+    mover.heading = way.heading;
+    mover.arrival = arrival;
   }
 
   const Instance& instance_;
-  const std::vector<std::size_t>& robots_;
   const Lattice& lattice_;
   std::vector<Vertex> vertices_;
-  std::vector<bool> is_done_;  // by robot: has been given its time in this step
-  std::vector<Trajectory> trajectories_;
-  std::vector<double> headings_;
-  std::vector<double> arrivals_;                     // seconds
-  std::vector<std::vector<TimedSegment>> arriving_;  // the parts of the last step
+  std::vector<Mover> movers_;  // in the order of the configurations
 };
 
 }  // namespace
