@@ -79,7 +79,7 @@ void parse_events(const JsonReader& root, const RobotNames& names, const Limits&
     if (request.fleet.robots[*robot].robot.yields()) {
       executions[*robot].goals->emplace_back().anywhere = true;
     }
-    request.goal_texts[*robot] = std::move(goals.texts);
+    request.repeated[*robot].texts = std::move(goals.texts);
   });
 }
 
@@ -187,7 +187,7 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
   read.moment.inflation = fleet.options.plan.inflation;
   read.moment.has_horizon = fleet.options.plan.horizon.has_value();
   read.executions.resize(fleet.robots.size());
-  read.goal_texts.resize(fleet.robots.size());
+  read.repeated.resize(fleet.robots.size());
   const RobotNames names(fleet.robots, "robots of the request");
   parse_events(root, names, limits, read);
   // Without the map's frame, so that no number changes.
@@ -205,15 +205,16 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
   for (ParsedRobot& robot : robots) {
     const std::size_t index = read.robots.size();
     if (work.met_after(corners)) return std::nullopt;
-    if (!read.executions[index].goals) read.goal_texts[index] = std::move(robot.goal_texts);
+    RepeatedGoals& repeated = read.repeated[index];
+    if (!read.executions[index].goals) repeated.texts = std::move(robot.goal_texts);
     read.executions[index].stop_distance = robot.stop_distance;
     read.executions[index].stays_when_served = robot.idle == Idle::stay;
-    read.returns.push_back(robot.idle == Idle::come_back);
+    repeated.returns = robot.idle == Idle::come_back;
     for (std::size_t k = 0; k < robot.open.size(); ++k) {
       core::choose(robot.robot, robot.open[k], fleet.robots[index].open[k].chosen);
       robot.open[k].is_settled = fleet.robots[index].open[k].is_settled;
     }
-    read.open.push_back(std::move(robot.open));
+    repeated.open = std::move(robot.open);
     // A robot that is off its path turns back as slowly as it has to anywhere.
     const core::DriveZones zones(fleet.zones, index, robot.robot);
     robot.robot.angular_speed = zones.least_angular_speed();
@@ -295,10 +296,10 @@ void write_actions(JsonWriter& json, std::string_view key, const std::vector<cor
 }
 
 /// What is repeated of the goals that are left: the last ones of those that the robot had.
-class TextsOfGoals {
+class GoalsToRepeat {
  public:
-  TextsOfGoals(const AdvanceRequest& request, std::size_t index, const core::Robot& left)
-      : all_(request.goal_texts[index]), open_(request.open[index]) {
+  GoalsToRepeat(const AdvanceRequest& request, std::size_t index, const core::Robot& left)
+      : left_(left), repeated_(request.repeated[index]) {
     const Execution& execution = request.executions[index];
     const std::size_t had = execution.goals ? execution.goals->size() : request.robots[index].goal_count();
     visited_ = had - left.goal_count();
@@ -308,40 +309,40 @@ class TextsOfGoals {
   /// Whether the robot has got other goals.
   bool are_other() const { return are_other_; }
 
+  /// Whether all poses of a goal are still possible. A robot that rests in the pose that its plan has chosen
+  /// stays with that, unless it is done and may come back to another one.
+  bool is_open(std::size_t goal) const {
+    if (texts_of(goal).any_of.empty()) return false;
+    const core::Goal& next = left_.goal_at(goal);
+    if (goal > 0 || !is_settled(goal) || !core::is_in_pose(left_.start, next)) return true;
+    return repeated_.returns && left_.own_goal_count() == 1 && next.service == 0.0;
+  }
+
+  const GoalTexts& texts_of(std::size_t goal) const {
+    static const GoalTexts none;
+    const std::vector<GoalTexts>& all = repeated_.texts;
+    return visited_ + goal < all.size() ? all[visited_ + goal] : none;
+  }
+
+ private:
   /// Whether the plan serves the goal at one of several poses.
   bool is_settled(std::size_t goal) const {
     const auto settles = [&](const core::OpenGoal& open) {
       return open.is_settled && open.goal == visited_ + goal;
     };
-    return !are_other_ && std::any_of(open_.begin(), open_.end(), settles);
+    return !are_other_ && std::any_of(repeated_.open.begin(), repeated_.open.end(), settles);
   }
 
-  const GoalTexts& of(std::size_t goal) const {
-    static const GoalTexts none;
-    return visited_ + goal < all_.size() ? all_[visited_ + goal] : none;
-  }
-
- private:
-  const std::vector<GoalTexts>& all_;
-  const std::vector<core::OpenGoal>& open_;
+  const core::Robot& left_;
+  const RepeatedGoals& repeated_;
   std::size_t visited_ = 0;
   bool are_other_ = false;
 };
 
-/// Whether all poses of a goal are still possible. A robot that rests in the pose that its plan has chosen
-/// stays with that, unless it is done and `returns`.
-bool is_open(const core::Robot& robot, std::size_t goal, const TextsOfGoals& texts, bool returns) {
-  if (texts.of(goal).any_of.empty()) return false;
-  const core::Goal& next = robot.goal_at(goal);
-  if (goal > 0 || !texts.is_settled(goal) || !core::is_in_pose(robot.start, next)) return true;
-  return returns && robot.own_goal_count() == 1 && next.service == 0.0;
-}
-
 /// As one goal if the request gave one goal, otherwise as a list.
-void write_goals(JsonWriter& json, const core::Robot& robot, const TextsOfGoals& texts, bool as_one,
-                 bool returns) {
+void write_goals(JsonWriter& json, const core::Robot& robot, const GoalsToRepeat& goals, bool as_one) {
   const auto write = [&](std::size_t goal) {
-    write_goal(json, robot.goal_at(goal), texts.of(goal), is_open(robot, goal, texts, returns));
+    write_goal(json, robot.goal_at(goal), goals.texts_of(goal), goals.is_open(goal));
   };
   const std::size_t count = robot.own_goal_count();
   if (count == 0) return;
@@ -372,7 +373,7 @@ std::vector<std::pair<std::string_view, double>> changed_traits(const core::Robo
 
 /// `before`: as the request gave it.
 void write_robot(JsonWriter& json, const JsonValue& given, const core::Robot& before,
-                 const core::Robot& robot, const TextsOfGoals& texts, bool returns, core::Work& work) {
+                 const core::Robot& robot, const GoalsToRepeat& goals, core::Work& work) {
   const auto changed = changed_traits(before, robot);
   const auto is_changed = [&](std::string_view key) {
     return std::any_of(changed.begin(), changed.end(), [&](const auto& trait) { return trait.first == key; });
@@ -386,8 +387,8 @@ void write_robot(JsonWriter& json, const JsonValue& given, const core::Robot& be
   }
   for (const auto& [name, value] : changed) json.member(name, value);
   write_start(json, robot);
-  const bool is_listed = given.find("goals").has_value() || texts.are_other();
-  write_goals(json, robot, texts, given.find("goal").has_value() || !is_listed, returns);
+  const bool is_listed = given.find("goals").has_value() || goals.are_other();
+  write_goals(json, robot, goals, given.find("goal").has_value() || !is_listed);
   if (robot.goal_age > 0.0) json.member("goal_age", robot.goal_age);
   if (!robot.committed.empty()) write_actions(json, "committed", robot.committed, work);
   if (robot.previous) write_actions(json, "previous", *robot.previous, work);
@@ -400,7 +401,7 @@ void write_robots(JsonWriter& json, const JsonValue& given, const AdvanceRequest
   std::size_t index = 0;
   for (const JsonValue robot : given.children()) {
     write_robot(json, robot, request.robots[index], robots[index],
-                TextsOfGoals(request, index, robots[index]), request.returns[index], work);
+                GoalsToRepeat(request, index, robots[index]), work);
     ++index;
   }
   json.end_array();

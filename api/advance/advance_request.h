@@ -18,17 +18,20 @@
 
 namespace fleetplan::api {
 
+/// What the answer repeats of the goals of a robot, or of those that replace them.
+struct RepeatedGoals {
+  std::vector<GoalTexts> texts;      // see ParsedGoals
+  std::vector<core::OpenGoal> open;  // as its plan has settled them
+  bool returns = false;              // it may come back to any pose of its last goal, if that is open
+};
+
 /// A readable body of POST /v1/advance, in the client's world.
 struct AdvanceRequest {
   Fleet fleet;  // of its request, in the map frame
   Moment moment;
   std::vector<core::Robot> robots;
-  std::vector<Execution> executions;  // by robot
-  /// By robot: what is repeated of its goals, or of those that replace them, see ParsedGoals.
-  std::vector<std::vector<GoalTexts>> goal_texts;
-  std::vector<std::vector<core::OpenGoal>> open;  // by robot, as its plan has settled them
-  /// By robot: it may come back to any pose of its last goal, if that is open.
-  std::vector<bool> returns;
+  std::vector<Execution> executions;    // by robot
+  std::vector<RepeatedGoals> repeated;  // by robot
   std::vector<core::MovingObstacle> obstacles;
   JsonReader request;  // the member of the body
 };
