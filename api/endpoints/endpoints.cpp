@@ -22,7 +22,6 @@
 #include "api/travel/travel_requests.h"
 #include "api/vda5050/export.h"
 #include "api/vda5050/import.h"
-#include "core/geometry/segment.h"
 #include "core/runtime/executor.h"
 #include "core/runtime/memory_account.h"
 #include "core/runtime/stop_condition.h"
@@ -252,14 +251,9 @@ Reply assign_endpoint(std::string_view body, const RequestContext& context) {
     }
     const auto arrivals = core::arrivals(plan.problem, plan.options, request->tasks, travelling.stop(),
                                          travelling.executor(), travelling.go_on());
-    const auto robots = arrivals ? assigned(*request, *arrivals, travelling.stop()) : std::nullopt;
-    if (!robots) return travelling.unfinished("The tasks could not be assigned", "tasks");
-    std::vector<bool> any_way;
-    for (const std::vector<double>& of_task : *arrivals) {
-      any_way.push_back(std::any_of(of_task.begin(), of_task.end(),
-                                    [](double arrival) { return arrival < core::kForever; }));
-    }
-    return write_assigned(*request, *robots, any_way);
+    const auto tasks = arrivals ? assigned(*request, *arrivals, travelling.stop()) : std::nullopt;
+    if (!tasks) return travelling.unfinished("The tasks could not be assigned", "tasks");
+    return write_assigned(*request, *tasks);
   };
   return travel_endpoint(body, context, kAssignMembers, with_goals);
 }

@@ -18,7 +18,6 @@
 #include "api/request/options.h"
 #include "api/request/parse_body.h"
 #include "api/request/shared_members.h"
-#include "core/geometry/segment.h"
 #include "core/travel/assignment.h"
 
 namespace fleetplan::api {
@@ -187,8 +186,9 @@ class TaskReader {
   void read(const JsonReader& item, AssignRequest& request) {
     const JsonReader json = item.object(kTaskMembers);
     if (!json) return;
-    request.ids.push_back(json.require("id").name().value_or(""));
-    check_id(json.find("id"), request.ids.back());
+    ReceivedTask& received = request.received.emplace_back();
+    received.id = json.require("id").name().value_or("");
+    check_id(json.find("id"), received.id);
     const JsonReader goals = json.require("goals", "; give a list of goals, as a robot has");
     if (goals.array() && goals.size() == 0) goals.fault(fault::kEmpty, "A task has at least one goal.");
     core::Task& task = request.tasks.emplace_back();
@@ -198,8 +198,8 @@ class TaskReader {
     }
     task.robots = robots(json.find("robots"));
     json.find("due").number(kDuration);
-    request.weights.push_back(json.find("weight").number(kWeight).value_or(1.0));
-    request.goals.push_back(goals);
+    received.weight = json.find("weight").number(kWeight).value_or(1.0);
+    received.goals = goals;
   }
 
  private:
@@ -268,8 +268,7 @@ std::optional<AssignRequest> parse_assign_request(const JsonReader& root, const 
   auto plan = parse_plan_request(member, limits, work, maps);
   // With faults, robots may be missing that tasks name.
   if (!plan || root.fault_count() > 0) return std::nullopt;
-  AssignRequest request{
-      .plan = std::move(*plan), .tasks = {}, .ids = {}, .weights = {}, .goals = {}, .request = member};
+  AssignRequest request{.plan = std::move(*plan), .tasks = {}, .received = {}, .request = member};
   if (!tasks || !check_task_pairs(tasks, request.plan.problem.robots().size())) return std::nullopt;
   TaskReader reader(request, limits);
   for (const JsonReader item : tasks.items()) reader.read(item, request);
@@ -277,9 +276,9 @@ std::optional<AssignRequest> parse_assign_request(const JsonReader& root, const 
   return request;
 }
 
-std::optional<std::vector<std::optional<Assigned>>> assigned(const AssignRequest& request,
-                                                             const std::vector<std::vector<double>>& arrivals,
-                                                             const core::StopCondition& stop) {
+std::optional<std::vector<Assigned>> assigned(const AssignRequest& request,
+                                              const std::vector<std::vector<double>>& arrivals,
+                                              const core::StopCondition& stop) {
   const std::size_t robots = request.plan.problem.robots().size();
   std::vector<std::vector<double>> costs;
   std::vector<std::vector<double>> times;
@@ -287,19 +286,23 @@ std::optional<std::vector<std::optional<Assigned>>> assigned(const AssignRequest
   for (std::size_t task = 0; task < request.tasks.size(); ++task) {
     if (stop.met()) return std::nullopt;
     std::vector<double>& cost = costs.emplace_back(robots, core::kForever);
-    importance.push_back(std::llround(request.weights[task] / kSameWeight));
+    const double weight = request.received[task].weight;
+    importance.push_back(std::llround(weight / kSameWeight));
     std::vector<double>& time = times.emplace_back(robots, core::kForever);
     for (std::size_t k = 0; k < request.tasks[task].robots.size(); ++k) {
       time[request.tasks[task].robots[k]] = arrivals[task][k];
-      cost[request.tasks[task].robots[k]] = request.weights[task] * arrivals[task][k];
+      cost[request.tasks[task].robots[k]] = weight * arrivals[task][k];
     }
   }
   const auto columns = core::assign(costs, importance, stop);
   if (!columns) return std::nullopt;
-  std::vector<std::optional<Assigned>> all;
+  std::vector<Assigned> all;
   for (std::size_t task = 0; task < costs.size(); ++task) {
-    const auto robot = (*columns)[task];
-    all.push_back(robot ? std::optional(Assigned{*robot, times[task][*robot]}) : std::nullopt);
+    Assigned& one = all.emplace_back();
+    one.robot = (*columns)[task];
+    if (one.robot) one.t_arrive = times[task][*one.robot];
+    one.any_way = std::any_of(arrivals[task].begin(), arrivals[task].end(),
+                              [](double arrival) { return arrival < core::kForever; });
   }
   return all;
 }
@@ -334,7 +337,7 @@ void write_robots(JsonWriter& json, const JsonValue& given, const AssignRequest&
   auto task = task_of.begin();
   for (const JsonValue robot : given.children()) {
     if (*task) {
-      write_robot(json, robot, request.goals[**task]);
+      write_robot(json, robot, request.received[**task].goals);
     } else {
       copy_json(json, robot);
     }
@@ -345,12 +348,11 @@ void write_robots(JsonWriter& json, const JsonValue& given, const AssignRequest&
 
 }  // namespace
 
-std::string write_assigned(const AssignRequest& request, const std::vector<std::optional<Assigned>>& assigned,
-                           const std::vector<bool>& any_way) {
+std::string write_assigned(const AssignRequest& request, const std::vector<Assigned>& assigned) {
   const std::vector<core::Robot>& robots = request.plan.problem.robots();
   std::vector<std::optional<std::size_t>> task_of(robots.size());
   for (std::size_t task = 0; task < assigned.size(); ++task) {
-    if (assigned[task]) task_of[assigned[task]->robot] = task;
+    if (assigned[task].robot) task_of[*assigned[task].robot] = task;
   }
   JsonWriter json;
   json.begin_object();
@@ -365,15 +367,16 @@ std::string write_assigned(const AssignRequest& request, const std::vector<std::
   }
   json.key("assigned").begin_array();
   for (std::size_t task = 0; task < assigned.size(); ++task) {
-    if (!assigned[task]) continue;
-    json.begin_object().member("task", request.ids[task]).member("robot", robots[assigned[task]->robot].id);
-    json.member("t_arrive", assigned[task]->t_arrive).end_object();
+    const Assigned& one = assigned[task];
+    if (!one.robot) continue;
+    json.begin_object().member("task", request.received[task].id).member("robot", robots[*one.robot].id);
+    json.member("t_arrive", one.t_arrive).end_object();
   }
   json.end_array().key("unassigned").begin_array();
   for (std::size_t task = 0; task < assigned.size(); ++task) {
-    if (assigned[task]) continue;
-    json.begin_object().member("task", request.ids[task]);
-    json.member("reason", any_way[task] ? "no_robot" : "no_way").end_object();
+    if (assigned[task].robot) continue;
+    json.begin_object().member("task", request.received[task].id);
+    json.member("reason", assigned[task].any_way ? "no_robot" : "no_way").end_object();
   }
   json.end_array().end_object();
   return json.take();

@@ -13,6 +13,7 @@
 #include "api/json/json_reader.h"
 #include "api/request/limits.h"
 #include "api/request/parse_request.h"
+#include "core/geometry/segment.h"
 #include "core/map/static_map.h"
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"
@@ -47,15 +48,19 @@ std::optional<std::string> write_matrix(const MatrixRequest& request, const core
 
 inline constexpr std::array<std::string_view, 2> kAssignMembers{"request", "tasks"};
 
+/// What a request gives of a task beside the core's task.
+struct ReceivedTask {
+  std::string id;
+  double weight = 1.0;
+  JsonReader goals;  // its member
+};
+
 /// A valid body of POST /v1/assign.
 struct AssignRequest {
   PlanRequest plan;
   std::vector<core::Task> tasks;
-  // By task:
-  std::vector<std::string> ids;
-  std::vector<double> weights;
-  std::vector<JsonReader> goals;  // its member
-  JsonReader request;             // the member of the body
+  std::vector<ReceivedTask> received;  // by task
+  JsonReader request;                  // the member of the body
 };
 
 /// Reads the root of the document. Returns none if it has faults, or if `work` is met. `maps`, which may be
@@ -63,22 +68,22 @@ struct AssignRequest {
 std::optional<AssignRequest> parse_assign_request(const JsonReader& root, const Limits& limits,
                                                   core::Work& work, core::MapCache* maps);
 
-/// The robot of each task and its arrival; none for a task that no robot has.
+/// Who does a task.
 struct Assigned {
-  std::size_t robot = 0;
-  double t_arrive = 0.0;  // seconds
+  std::optional<std::size_t> robot = {};  // nullopt: no robot has it
+  double t_arrive = core::kForever;       // seconds
+  bool any_way = false;                   // whether any robot could do it
 };
 
 /// Gives each task to one robot, at most one each, at the least sum of weighted arrivals; `arrivals` as by
-/// core::arrivals(). If there are too few robots, the tasks without one weigh the least. Returns none if
-/// `stop` is met first.
-std::optional<std::vector<std::optional<Assigned>>> assigned(const AssignRequest& request,
-                                                             const std::vector<std::vector<double>>& arrivals,
-                                                             const core::StopCondition& stop);
+/// core::arrivals(). If there are too few robots, the tasks without one weigh the least. Returns by task who
+/// does it; none if `stop` is met first.
+std::optional<std::vector<Assigned>> assigned(const AssignRequest& request,
+                                              const std::vector<std::vector<double>>& arrivals,
+                                              const core::StopCondition& stop);
 
 /// Returns the request of the body, with the goals of the tasks after those that their robots have,
-/// `assigned` and `unassigned`. `any_way`: by task, whether any robot could do it.
-std::string write_assigned(const AssignRequest& request, const std::vector<std::optional<Assigned>>& assigned,
-                           const std::vector<bool>& any_way);
+/// `assigned` and `unassigned`.
+std::string write_assigned(const AssignRequest& request, const std::vector<Assigned>& assigned);
 
 }  // namespace fleetplan::api
