@@ -75,7 +75,7 @@ StopCondition beyond_budget(const StopCondition& stop, std::chrono::milliseconds
   using Clock = StopCondition::Clock;
   if (stop.deadline() == Clock::time_point::max() && !stop.cancelled()) return stop;
   const auto now = Clock::now();
-  if (stop.cancelled()) return StopCondition::even_if_cancelled(now + most).despite_memory();
+  if (stop.cancelled()) return stop.even_if_cancelled(now + most).despite_memory();
   return stop.until(std::max(stop.deadline(), now) + most).despite_memory();
 }
 

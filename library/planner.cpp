@@ -51,7 +51,7 @@ class Reporter : public core::Observer {
 core::Plan planned(const core::Problem& problem, const core::PlanOptions& options,
                    const core::StopCondition& stop, const Control& control) {
   if (stop.met() && !core::have_previous_plans(problem.robots())) {
-    const auto patience = core::StopCondition::even_if_cancelled(Clock::now() + kPatience);
+    const auto patience = stop.even_if_cancelled(Clock::now() + kPatience);
     return core::plan_without_search(problem, options, "Planning was stopped before it began.", patience);
   }
   core::CallerThread thread;
@@ -95,7 +95,7 @@ Plan plan(const Problem& problem, const Options& options, const Control& control
   if (!found.unavoidable_known) return plan;
 
   const Clock::time_point now = Clock::now();
-  const auto patience = core::StopCondition::even_if_cancelled(
+  const auto patience = stop.even_if_cancelled(
       control.stop.stop_requested() ? now + kPatience : std::max(stop.deadline(), now + kPatience));
   const auto report = core::check_plan(*made.problem, core_options, found, patience);
   if (!report) return plan;

@@ -26,7 +26,8 @@ constexpr std::size_t kShortBody = 1 << 20;
 }  // namespace
 
 Reply bounded_work(const RequestContext& context, const std::function<Reply(core::Work&)>& endpoint) {
-  core::Work work({context.stop, context.received_at, context.limits.max_plan_memory, context.cpu_clock});
+  core::Work work({context.stop, context.received_at, context.limits.max_plan_memory, context.cpu_clock,
+                   context.early_end});
   try {
     const core::MemoryScope scope(work.memory().get());
     Reply reply = endpoint(work);

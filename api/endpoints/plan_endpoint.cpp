@@ -58,7 +58,7 @@ core::StopCondition check_stop(const core::StopCondition& planning, const PlanRe
   constexpr std::chrono::milliseconds kMostAfterPlanning{90};
   constexpr std::chrono::milliseconds kLeastCpu{25};
   if (planning.cancelled()) {
-    return core::StopCondition::even_if_cancelled(StageTimes::Clock::now() + kMostAfterPlanning / 2);
+    return planning.even_if_cancelled(StageTimes::Clock::now() + kMostAfterPlanning / 2);
   }
   if (planning.deadline() == StageTimes::Clock::time_point::max()) return planning;
   const auto most = std::max<std::chrono::nanoseconds>(kMostAfterPlanning, for_answer(request));
@@ -72,7 +72,7 @@ core::StopCondition last_stop(const StageTimes& stages, const core::StopConditio
                               const PlanRequest& request) {
   constexpr StageTimes::Clock::duration kLeast = std::chrono::milliseconds(200);
   const auto patience = StageTimes::Clock::now() + std::max(kLeast, stages.parsed - stages.received);
-  if (planning.cancelled()) return core::StopCondition::even_if_cancelled(patience).despite_memory();
+  if (planning.cancelled()) return planning.even_if_cancelled(patience).despite_memory();
   const core::StopCondition check = check_stop(planning, request);
   return planning.until(std::max(patience, check.deadline())).despite_memory();
 }
@@ -281,8 +281,8 @@ core::Plan plan_or_none(const Planner& planner, const PlanRequest& request, cons
   try {
     return planner(request.problem, request.options, stop, observer);
   } catch (const std::bad_alloc&) {
-    const auto patience = core::StopCondition::even_if_cancelled(std::max(stop.deadline(), Clock::now()) +
-                                                                 core::kMostForPrevious);
+    const auto patience =
+        stop.even_if_cancelled(std::max(stop.deadline(), Clock::now()) + core::kMostForPrevious);
     return core::plan_without_search(request.problem, request.options, core::kMemorySpent,
                                      patience.despite_memory());
   }
@@ -378,7 +378,7 @@ Reply planned(const Planner& planner, std::string_view body, const RequestContex
   if (!has_come) return too_busy(context.request_id);
   // Previous plans that hold are kept whatever the budget.
   if (stop.met() && !core::have_previous_plans(request->problem.robots())) {
-    const auto patience = core::StopCondition::even_if_cancelled(Clock::now() + core::kMostForPrevious);
+    const auto patience = stop.even_if_cancelled(Clock::now() + core::kMostForPrevious);
     Reply reply =
         answer(core::plan_without_search(request->problem, request->options,
                                          "The time budget was spent before planning could begin.", patience),

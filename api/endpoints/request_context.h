@@ -136,6 +136,7 @@ struct RequestContext {
   Turn* turn = nullptr;                // turn to compute; null: it may compute at once
   core::MapCache* maps = nullptr;      // the maps of earlier requests; null: none
   core::Work::CpuClock cpu_clock = core::thread_cpu_time;
+  core::EarlyEnd* early_end = nullptr;  // may end the work before its budget; null: none
 };
 
 }  // namespace fleetplan::api

@@ -6,9 +6,6 @@
 
 namespace fleetplan::core {
 
-// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): see the header
-constinit thread_local StepClock step_clock;
-
 std::chrono::nanoseconds thread_cpu_time() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
@@ -36,8 +33,8 @@ void Work::end_reading() {
 bool Work::look() {
   amount_ = 0;
   if (!is_bounded_) return false;
-  met_ = met_ || step_clock.tick(false) || cancelled() || (cpu_end_ && bounds_.cpu_clock() >= *cpu_end_) ||
-         Clock::now() >= deadline_;
+  met_ = met_ || (bounds_.early_end != nullptr && bounds_.early_end->met(false)) || cancelled() ||
+         (cpu_end_ && bounds_.cpu_clock() >= *cpu_end_) || Clock::now() >= deadline_;
   return met_;
 }
 

@@ -4,9 +4,7 @@
 
 #include <chrono>
 #include <cstddef>
-#include <cstdint>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -16,23 +14,19 @@
 
 namespace fleetplan::core {
 
-/// Counts how often the stop conditions of a thread are asked: a clock for tests, the same on every machine.
-struct StepClock {
-  static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+/// Ends computations before their deadline. Tests count questions by it instead of seconds, the same on every
+/// machine. `outlasts`: whether the condition that is asked outlasts the budget, to decide about the answer.
+class EarlyEnd {
+ public:
+  EarlyEnd() = default;
+  EarlyEnd(const EarlyEnd&) = delete;
+  EarlyEnd& operator=(const EarlyEnd&) = delete;
+  virtual ~EarlyEnd() = default;
 
-  std::int64_t steps = 0;
-  std::int64_t end = kNever;  // the thread's stop conditions, those by default apart, are met after so many
-  std::int64_t patience = 0;  // steps by which those that outlast the budget are met later
-
-  bool tick(bool outlasts) { return ++steps > end_of(outlasts); }
-  bool is_over(bool outlasts) const { return steps >= end_of(outlasts); }
-
- private:
-  std::int64_t end_of(bool outlasts) const { return outlasts && end < kNever ? end + patience : end; }
+  /// Called whenever a condition is asked; returns whether it is met.
+  virtual bool met(bool outlasts) = 0;
+  virtual bool is_over(bool outlasts) const = 0;
 };
-
-// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): changed by tests only
-extern constinit thread_local StepClock step_clock;
 
 /// Returns the CPU time that the calling thread has had.
 std::chrono::nanoseconds thread_cpu_time();
@@ -53,7 +47,8 @@ class StopCondition {
 
   bool met() const {
     if (!is_bounded_) return false;
-    return step_clock.tick(outlasts_) || cancelled() || (heeds_memory_ && is_short_of_memory()) || is_late();
+    return (early_ != nullptr && early_->met(outlasts_)) || cancelled() ||
+           (heeds_memory_ && is_short_of_memory()) || is_late();
   }
   /// Returns this condition, but not met while the job is short of memory: for the end of a job, which has
   /// memory set apart.
@@ -72,19 +67,29 @@ class StopCondition {
   /// Returns a condition that is met at `deadline`, or when a stop is requested.
   StopCondition until(Clock::time_point deadline) const {
     StopCondition other(deadline, stop_);
+    other.early_ = early_;
     other.outlasts_ = outlasts_ || deadline > deadline_;
     return other;
   }
   /// Returns a condition that is met at `deadline` only: for the little that is done once a stop was
   /// requested.
-  static StopCondition even_if_cancelled(Clock::time_point deadline) {
+  StopCondition even_if_cancelled(Clock::time_point deadline) const {
     StopCondition other(deadline);
+    other.early_ = early_;
     other.outlasts_ = true;
+    return other;
+  }
+  /// Returns this condition, but also met when `early` says so. Null: it is met as it would be without one.
+  StopCondition ended_by(EarlyEnd* early) const {
+    StopCondition other = *this;
+    other.early_ = early;
     return other;
   }
   bool cancelled() const { return stop_.stop_requested(); }
   /// Whether the time is over: cancelled, or after the deadline, whatever else the condition is met for.
-  bool is_over() const { return is_bounded_ && (step_clock.is_over(outlasts_) || cancelled() || is_late()); }
+  bool is_over() const {
+    return is_bounded_ && ((early_ != nullptr && early_->is_over(outlasts_)) || cancelled() || is_late());
+  }
   Clock::time_point deadline() const { return deadline_; }
   const std::stop_token& stop_token() const { return stop_; }
 
@@ -97,6 +102,7 @@ class StopCondition {
   bool is_bounded_ = false;
   bool heeds_memory_ = true;
   bool outlasts_ = false;  // it outlasts the budget: for what is done after it
+  EarlyEnd* early_ = nullptr;
   Clock::time_point deadline_ = Clock::time_point::max();
   std::chrono::nanoseconds cpu_end_{0};  // of the calling thread; 0: none
   std::stop_token stop_;
@@ -160,6 +166,7 @@ class Work {
     Clock::time_point received_at = Clock::now();  // the begin of the budget
     std::size_t memory = kUnlimitedMemory;         // bytes
     CpuClock cpu_clock = thread_cpu_time;          // CPU time of the thread that reads
+    EarlyEnd* early_end = nullptr;                 // null: none
   };
   static constexpr std::size_t kUnlimitedMemory = std::size_t{1} << 62;
 
@@ -193,7 +200,9 @@ class Work {
   /// The condition that is met at the end of the budget, less `kept` for later work; never without a budget.
   StopCondition before_end(std::chrono::nanoseconds kept = {}) const;
   /// The condition that is met at `time`, or when nobody waits for the answer.
-  StopCondition until(Clock::time_point time) const { return StopCondition(time, bounds_.stop); }
+  StopCondition until(Clock::time_point time) const {
+    return StopCondition(time, bounds_.stop).ended_by(bounds_.early_end);
+  }
 
   /// The account of the memory that the request's threads have allocated; see MemoryScope.
   const std::shared_ptr<MemoryAccount>& memory() const { return memory_; }

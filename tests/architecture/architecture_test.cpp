@@ -210,8 +210,7 @@ TEST(SourceRules, RejectStopConditionsThatKnowNothingOfTheRequest) {
   EXPECT_THAT(
       violations("core/a.cpp", "StopCondition sooner(const StopCondition& stop) { return stop.until(t); }\n"),
       IsEmpty());
-  EXPECT_THAT(violations("core/a.cpp", "const auto last = StopCondition::even_if_cancelled(t);\n"),
-              IsEmpty());
+  EXPECT_THAT(violations("core/a.cpp", "const auto last = stop.even_if_cancelled(t);\n"), IsEmpty());
 }
 
 TEST(SourceRules, RejectLoopsInLoopsThatNothingBounds) {

@@ -12,11 +12,11 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "core/runtime/stop_condition.h"
 #include "tests/fuzz/effort_requests.h"
 #include "tests/fuzz/refusals.h"
 #include "tests/fuzz/require.h"
 #include "tests/fuzz/target.h"
+#include "tests/support/step_limit.h"
 
 namespace fleetplan::fuzz {
 
@@ -24,12 +24,20 @@ namespace {
 
 /// The basic blocks since the last question. All requests of this target run in one thread.
 struct Blocks {
-  std::int64_t steps = 0;  // questions so far
   std::int64_t count = 0;
   bool counting = false;  // while an endpoint computes
 };
 
 Blocks blocks;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables): for the callback below
+
+class Steps final : public support::StepLimit {
+ public:
+  using StepLimit::StepLimit;
+  bool met(bool outlasts) override {
+    blocks.count = 0;
+    return StepLimit::met(outlasts);
+  }
+};
 
 }  // namespace
 
@@ -61,13 +69,12 @@ void check(const Effort& effort) {
   api::RequestContext context;
   context.request_id = "id";
   context.limits.max_plan_memory = effort.memory;
-  core::StepClock& clock = core::step_clock;
-  clock = {0, effort.steps};
-  blocks = {0, 0, true};
+  Steps steps(effort.steps);
+  context.early_end = &steps;
+  blocks = {0, true};
   const api::Reply reply = effort.endpoint(effort.body, context);
   blocks.counting = false;
-  const std::int64_t late = clock.steps - effort.steps;
-  clock = {};
+  const std::int64_t late = steps.late();
   require(late <= allowed_lateness(effort.robots), "an answer is late", std::to_string(late));
   if (reply.status != 200) return require_proper_refusal(effort.body, reply);
   if (effort.plans) return check_plan(effort, reply);
@@ -91,11 +98,6 @@ extern "C" __attribute__((no_sanitize_coverage)) void __sanitizer_cov_trace_pc()
   using fleetplan::fuzz::blocks;
   // A tenth of a second: the longest map is read, copied and indexed in a few linear passes.
   constexpr std::int64_t kMostBlocks = 40'000'000;
-  const std::int64_t steps = fleetplan::core::step_clock.steps;
-  if (steps != blocks.steps) {
-    blocks.steps = steps;
-    blocks.count = 0;
-  }
   if (!blocks.counting || ++blocks.count < kMostBlocks) return;
   std::fputs("a loop asks no stop condition\n", stderr);
   std::abort();  // here, so that a debugger shows the loop

@@ -40,8 +40,8 @@ constexpr double kRounding = 4e-9;
 constexpr std::int64_t kMostSteps = 40'000;
 
 Plan planned(const Problem& problem, const PlanOptions& options) {
-  const support::StepLimit limit(kMostSteps);
-  Plan plan = core::plan(problem, options, support::counted());
+  support::StepLimit limit(kMostSteps);
+  Plan plan = core::plan(problem, options, support::counted(limit));
   const auto tolerances = plan_tolerances(problem.grid(), problem.robots(), plan.plans);
   const auto report =
       verify(problem.grid(), problem.robots(), plan.plans, tolerances, StopCondition::never());
@@ -370,8 +370,8 @@ TEST_P(StartsInWalls, AreLeftForGood) {
     options.start_overlap = 0.05;
     options.mode = dice.chance(0.3) ? PlanOptions::Mode::anytime : PlanOptions::Mode::first;
     options.max_iterations = 5;
-    const support::StepLimit limit(kMostSteps);
-    const Plan plan = core::plan(*problem, options, support::counted());
+    support::StepLimit limit(kMostSteps);
+    const Plan plan = core::plan(*problem, options, support::counted(limit));
     support::expect_safe(*problem, plan, options);
   }
 }

@@ -149,14 +149,14 @@ void expect_answers_at_every_moment(Endpoint endpoint, const Json& request, std:
   const std::string body = std::string(3 * core::Work::kStride, ' ') + request.dump();
   std::int64_t all = 0;
   {
-    const support::StepLimit limit;
-    EXPECT_EQ(endpoint(body, {}).status, 200);
+    support::StepLimit limit;
+    EXPECT_EQ(endpoint(body, ended_by(limit)).status, 200);
     all = limit.steps();
   }
   for (std::int64_t steps = 0; steps <= all; steps += 1 + all / kMoments) {
     SCOPED_TRACE(testing::Message() << steps << " of " << all << " steps");
-    const support::StepLimit limit(steps, patience);
-    const Reply reply = endpoint(body, {});
+    support::StepLimit limit(steps, patience);
+    const Reply reply = endpoint(body, ended_by(limit));
     expect_answer(reply);
     EXPECT_LE(limit.late(), kMostLate + (patience > 0 ? kMostOfChecks : 0));
     if (patience > 0) {

@@ -14,8 +14,10 @@
 #include "api/endpoints/endpoints.h"
 #include "api/json/errors.h"
 #include "core/runtime/stop_condition.h"
+#include "tests/api/support/answers.h"
 #include "tests/api/support/requests.h"
 #include "tests/api/support/test_turn.h"
+#include "tests/support/step_limit.h"
 
 namespace fleetplan::api {
 namespace TEST_FILE {
@@ -516,14 +518,14 @@ TEST(PlanEndpoint, ChecksManyRobotsThatStartInOnePlace) {
 /// The budget ends after each number of questions to the stop condition, up to the last one.
 TEST(PlanEndpoint, NamesTheStartsThatTakeTooLongToCheck) {
   const Json request = stacked_robots(100);
-  core::step_clock = {};
+  support::StepLimit whole;
   const std::string body = request.dump();
-  plan_endpoint(body, context());
-  const std::int64_t steps = core::step_clock.steps;
+  plan_endpoint(body, ended_by(whole));
+  const std::int64_t steps = whole.steps();
   int unfinished = 0;
   for (std::int64_t end = 0; end < steps; ++end) {
-    core::step_clock = {0, end};
-    const Reply reply = plan_endpoint(body, context());
+    support::StepLimit limit(end);
+    const Reply reply = plan_endpoint(body, ended_by(limit));
     const Json answer = json_of(reply);
     if (reply.status == 200 || answer["code"] == "parse_unfinished") continue;
     ++unfinished;
@@ -531,7 +533,6 @@ TEST(PlanEndpoint, NamesTheStartsThatTakeTooLongToCheck) {
     EXPECT_THAT(answer["detail"].get<std::string>(), HasSubstr("near each other"));
     EXPECT_THAT(answer["detail"].get<std::string>(), Not(HasSubstr("`motion`")));
   }
-  core::step_clock = {};
   EXPECT_GT(unfinished, 0);
 }
 
@@ -540,17 +541,16 @@ TEST(PlanEndpoint, NamesTheMotionThatTakesTooLongToCheckIfThereIsAny) {
   request["obstacles"] =
       Json::parse(R"([{"id": "o", "radius": 0.3, "motion": [{"t": 0, "x": 15, "y": 5}]}])");
   const std::string body = request.dump();
-  core::step_clock = {};
-  plan_endpoint(body, context());
+  support::StepLimit whole;
+  plan_endpoint(body, ended_by(whole));
   int unfinished = 0;
-  for (std::int64_t end = core::step_clock.steps - 1; end > 0 && unfinished == 0; --end) {
-    core::step_clock = {0, end};
-    const Json answer = json_of(plan_endpoint(body, context()));
+  for (std::int64_t end = whole.steps() - 1; end > 0 && unfinished == 0; --end) {
+    support::StepLimit limit(end);
+    const Json answer = json_of(plan_endpoint(body, ended_by(limit)));
     if (answer.value("code", "") != "check_unfinished") continue;
     ++unfinished;
     EXPECT_THAT(answer["detail"].get<std::string>(), HasSubstr("`motion`"));
   }
-  core::step_clock = {};
   EXPECT_EQ(unfinished, 1);
 }
 
@@ -588,12 +588,12 @@ TEST(PlanEndpoint, NeverCallsAGoalOutOfReachBecauseTheBudgetEnds) {
   }
   request["robots"][0].erase("goal");
   const std::string body = request.dump();
-  core::step_clock = {};
-  EXPECT_EQ(json_of(plan_endpoint(body, context()))["status"], "solved");
-  const std::int64_t steps = core::step_clock.steps;
+  support::StepLimit whole;
+  EXPECT_EQ(json_of(plan_endpoint(body, ended_by(whole)))["status"], "solved");
+  const std::int64_t steps = whole.steps();
   for (std::int64_t end = 0; end < steps; end += 1 + steps / 150) {
-    core::step_clock = {0, end};
-    const Reply reply = plan_endpoint(body, context());
+    support::StepLimit limit(end);
+    const Reply reply = plan_endpoint(body, ended_by(limit));
     if (reply.status != 200) {
       EXPECT_EQ(reply.status, 422) << reply.body;
       continue;
@@ -602,7 +602,6 @@ TEST(PlanEndpoint, NeverCallsAGoalOutOfReachBecauseTheBudgetEnds) {
       EXPECT_EQ(robot["reason"], "budget_exhausted") << end << " of " << steps << robot;
     }
   }
-  core::step_clock = {};
 }
 
 }  // namespace TEST_FILE

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "api/endpoints/endpoints.h"
+#include "tests/api/support/answers.h"
 #include "tests/api/support/requests.h"
 #include "tests/api/support/test_turn.h"
 #include "tests/support/step_limit.h"
@@ -214,8 +215,8 @@ TEST(SimulateEndpoint, EndsSoonAfterItsStopWheneverThatIs) {
   request["runs"] = 3;
   int finished = 0;
   for (std::int64_t steps = 0; steps < 8000; steps += 200) {
-    const support::StepLimit limit(steps);
-    const Reply reply = reply_to(request);
+    support::StepLimit limit(steps);
+    const Reply reply = reply_to(request, ended_by(limit));
     if (reply.status != 200) {
       EXPECT_EQ(reply.problem, "check_unfinished");
     } else {

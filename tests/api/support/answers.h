@@ -8,8 +8,16 @@
 
 #include "api/endpoints/endpoints.h"
 #include "tests/api/support/requests.h"
+#include "tests/support/step_limit.h"
 
 namespace fleetplan::api {
+
+/// The context of a request that the limit ends.
+inline RequestContext ended_by(support::StepLimit& limit) {
+  RequestContext context;
+  context.early_end = &limit;
+  return context;
+}
 
 /// The answer to a request that the endpoint is expected to serve.
 inline Json answer_of(Reply (*endpoint)(std::string_view, const RequestContext&), const Json& request) {

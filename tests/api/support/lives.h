@@ -27,8 +27,8 @@ inline Reply planned_in(std::int64_t steps, const Json& request) {
   const Planner planner = [&](const core::Problem& problem, const core::PlanOptions& options,
                               const core::StopCondition& stop, core::Observer* observer) {
     constexpr std::int64_t kPatience = 100'000;  // so much may checks of previous plans outlast the budget
-    const support::StepLimit limit(steps, kPatience);
-    return core::plan(problem, options, stop, executor, observer);
+    support::StepLimit limit(steps, kPatience);
+    return core::plan(problem, options, stop.ended_by(&limit), executor, observer);
   };
   return plan_with(planner, request.dump(), {});
 }

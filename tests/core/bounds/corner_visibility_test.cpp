@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdint>
 #include <numeric>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "tests/core/map/distances.h"
 #include "tests/support/ascii_map.h"
 #include "tests/support/random_problem.h"
+#include "tests/support/step_limit.h"
 
 namespace fleetplan::core {
 namespace TEST_FILE {
@@ -153,22 +153,20 @@ TEST(CornerVisibility, SeesEveryCornerThatAThinStripReachesAndNoneBehindACell) {
 TEST(CornerVisibility, StopsSoonAfterTheStopConditionIsMet) {
   OccupancyGrid grid(200, 200, 1.0);
   for (int k = 0; k < 200 * 200; k += 7) grid.block({k % 200, k / 200});
-  const StopCondition far(StopCondition::Clock::now() + std::chrono::hours(1));
-  const auto look_around = [&] {
-    CornerVisibility sight(grid, 0.0, 0.0, far);
+  const auto look_around = [&](support::StepLimit& limit) {
+    CornerVisibility sight(grid, 0.0, 0.0, support::counted(limit));
     for (int corner = 0; corner < 20 && !sight.stopped(); ++corner) sight.bends_from(corner);
     return sight.stopped();
   };
-  step_clock = {};
-  EXPECT_FALSE(look_around());
-  const std::int64_t all = step_clock.steps;
+  support::StepLimit whole;
+  EXPECT_FALSE(look_around(whole));
+  const std::int64_t all = whole.steps();
   EXPECT_GT(all, 30);
   for (std::int64_t end = 0; end < all; end += 3) {
-    step_clock = {0, end};
-    EXPECT_TRUE(look_around());
-    EXPECT_EQ(step_clock.steps, end + 1);
+    support::StepLimit limit(end);
+    EXPECT_TRUE(look_around(limit));
+    EXPECT_EQ(limit.steps(), end + 1);
   }
-  step_clock = {};
 }
 
 }  // namespace TEST_FILE

@@ -155,8 +155,8 @@ struct Neighbours {
 
 TEST(MakeDependencies, OfManyTripsInOneCorridorLookAtAllPairsOfStretchesAFewTimesOnly) {
   const Neighbours fleet(300);
-  const support::StepLimit limit;
-  const auto found = make_dependencies(fleet.robots, fleet.plans, rules(2, 0.3), support::counted());
+  support::StepLimit limit;
+  const auto found = make_dependencies(fleet.robots, fleet.plans, rules(2, 0.3), support::counted(limit));
   ASSERT_TRUE(found);
   EXPECT_GT(found->list.size() + found->tight.size(), 500U);
   // 360,000 pairs, a question for each 256 of what is looked at; each stretch is in several buckets.
@@ -167,14 +167,14 @@ TEST(MakeDependencies, EndSoonAfterTheirStop) {
   const Neighbours fleet(100);
   std::int64_t all = 0;
   {
-    const support::StepLimit limit;
-    ASSERT_TRUE(make_dependencies(fleet.robots, fleet.plans, rules(2, 0.3), support::counted()));
+    support::StepLimit limit;
+    ASSERT_TRUE(make_dependencies(fleet.robots, fleet.plans, rules(2, 0.3), support::counted(limit)));
     all = limit.steps();
   }
   ASSERT_GT(all, 200);
   for (std::int64_t steps = 0; steps < all; steps += all / 50) {
-    const support::StepLimit limit(steps);
-    EXPECT_FALSE(make_dependencies(fleet.robots, fleet.plans, rules(2, 0.3), support::counted()));
+    support::StepLimit limit(steps);
+    EXPECT_FALSE(make_dependencies(fleet.robots, fleet.plans, rules(2, 0.3), support::counted(limit)));
     EXPECT_LE(limit.late(), 4) << steps;
   }
 }

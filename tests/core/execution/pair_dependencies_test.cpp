@@ -206,8 +206,9 @@ TEST(Staircase, IsNothingSoonAfterItsStop) {
   const RobotPlan later = random_plan(random, 200, 5.0);
   const auto regions = random_regions(random, 200);
   for (const std::int64_t steps : {0, 1, 7}) {
-    const support::StepLimit limit(steps);
-    EXPECT_FALSE(staircase_of(regions, Pace(plan.actions), Pace(later.actions), kSlack, support::counted()));
+    support::StepLimit limit(steps);
+    EXPECT_FALSE(
+        staircase_of(regions, Pace(plan.actions), Pace(later.actions), kSlack, support::counted(limit)));
     EXPECT_LE(limit.late(), 2);
   }
 }

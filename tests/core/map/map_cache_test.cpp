@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -12,6 +11,7 @@
 
 #include "core/map/static_map.h"
 #include "core/runtime/memory_account.h"
+#include "tests/support/step_limit.h"
 
 namespace fleetplan::core {
 namespace TEST_FILE {
@@ -193,13 +193,11 @@ TEST(MapCache, ThreadsShareIt) {
 
 TEST(MapCache, KeepsNoMapThatIsNotFinished) {
   MapCache cache(std::size_t{1} << 20);
-  const StopCondition far(StopCondition::Clock::now() + std::chrono::hours(1));
-  step_clock = {0, 0};
-  EXPECT_EQ(cache.map_of(OccupancyGrid(100, 100, 1.0), far), nullptr);
-  step_clock = {};
+  support::StepLimit none(0);
+  EXPECT_EQ(cache.map_of(OccupancyGrid(100, 100, 1.0), support::counted(none)), nullptr);
   EXPECT_EQ(cache.stats().maps, 0u);
-  EXPECT_NE(cache.map_of(OccupancyGrid(100, 100, 1.0), far), nullptr);
-  step_clock = {};
+  support::StepLimit enough;
+  EXPECT_NE(cache.map_of(OccupancyGrid(100, 100, 1.0), support::counted(enough)), nullptr);
 }
 
 }  // namespace TEST_FILE

@@ -3,13 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 
 #include "tests/core/map/distances.h"
 #include "tests/support/ascii_map.h"
 #include "tests/support/random_problem.h"
+#include "tests/support/step_limit.h"
 
 namespace fleetplan::core {
 namespace TEST_FILE {
@@ -135,17 +135,15 @@ TEST(DistanceTransform, CutsLongDistancesOff) {
 
 TEST(DistanceTransform, IsNotFinishedIfTheStopConditionIsMet) {
   const OccupancyGrid grid(40, 200, 1.0);
-  const StopCondition far(StopCondition::Clock::now() + std::chrono::hours(1));
-  step_clock = {};
-  EXPECT_TRUE(DistanceTransform(grid, far).finished());
-  const std::int64_t all = step_clock.steps;
+  support::StepLimit whole;
+  EXPECT_TRUE(DistanceTransform(grid, support::counted(whole)).finished());
+  const std::int64_t all = whole.steps();
   EXPECT_GT(all, 3 * 200 / 16);
   for (std::int64_t end = 0; end < all; ++end) {
-    step_clock = {0, end};
-    EXPECT_FALSE(DistanceTransform(grid, far).finished());
-    EXPECT_EQ(step_clock.steps, end + 1);
+    support::StepLimit limit(end);
+    EXPECT_FALSE(DistanceTransform(grid, support::counted(limit)).finished());
+    EXPECT_EQ(limit.steps(), end + 1);
   }
-  step_clock = {};
 }
 
 }  // namespace TEST_FILE

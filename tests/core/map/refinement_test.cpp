@@ -17,6 +17,7 @@
 #include "core/runtime/stop_condition.h"
 #include "tests/support/ascii_map.h"
 #include "tests/support/random_problem.h"
+#include "tests/support/step_limit.h"
 
 namespace fleetplan::core {
 namespace TEST_FILE {
@@ -168,17 +169,14 @@ TEST(Refinement, EndsWhenItIsStopped) {
 /// How often it asks the stop condition, which is met after `end` questions, and whether it is finished.
 std::pair<std::int64_t, bool> questions(const StaticMap& map, const Lattice& lattice, double radius,
                                         std::int64_t end) {
-  const StopCondition far(StopCondition::Clock::now() + std::chrono::hours(1));
-  step_clock = {0, end};
-  const bool finished = refine(map.grid(), map.sight(), lattice, radius, far).has_value();
-  const std::int64_t steps = step_clock.steps;
-  step_clock = {};
-  return {steps, finished};
+  support::StepLimit limit(end);
+  const bool finished = refine(map.grid(), map.sight(), lattice, radius, support::counted(limit)).has_value();
+  return {limit.steps(), finished};
 }
 
 void expect_to_end_at_every_question(const StaticMap& map, const Lattice& lattice, double radius,
                                      std::int64_t least) {
-  const auto [all, finished] = questions(map, lattice, radius, StepClock::kNever);
+  const auto [all, finished] = questions(map, lattice, radius, support::StepLimit::kNever);
   EXPECT_TRUE(finished);
   EXPECT_GE(all, least);
   for (std::int64_t end = 0; end < all; end += 1 + all / 50) {

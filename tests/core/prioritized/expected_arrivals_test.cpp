@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -12,6 +11,7 @@
 
 #include "tests/core/support/planning.h"
 #include "tests/support/random_problem.h"
+#include "tests/support/step_limit.h"
 
 namespace fleetplan::core {
 namespace TEST_FILE {
@@ -121,12 +121,9 @@ Planning to_and_fro(int times) {
 TEST(ExpectedArrivals, AskTheStopConditionWhileTheyLookAtManyPassages) {
   const auto steps = [](int times) {
     Planning p = to_and_fro(times);
-    const StopCondition far(StopCondition::Clock::now() + std::chrono::hours(1));
-    step_clock = {};
-    order_by_expected_arrival(p.state, p.movers(), far);
-    const std::int64_t taken = step_clock.steps;
-    step_clock = {};
-    return taken;
+    support::StepLimit limit;
+    order_by_expected_arrival(p.state, p.movers(), support::counted(limit));
+    return limit.steps();
   };
   EXPECT_GT(steps(400) - steps(200), 200 * 3) << "for each way, less than 2.5 without its passages";
 }

@@ -2,11 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
-
 #include "core/runtime/memory_account.h"
 #include "core/runtime/stop_condition.h"
 #include "tests/core/support/planning.h"
+#include "tests/support/step_limit.h"
 
 namespace fleetplan::core {
 namespace TEST_FILE {
@@ -94,17 +93,15 @@ TEST(SearchSpaces, AreNotMadeIfTheStopConditionIsMet) {
   Robot robot = robot_at(0.5, 0.5).to(4.5, 0.5).radius(0.1);
   for (int k = 0; k < 300; ++k) robot.via.push_back({Position(1.03 + 0.01 * k, 1.02), {}});
   const Planning p(support::ascii_map({".......", ".......", "......."}), {robot});
-  const StopCondition far(StopCondition::Clock::now() + std::chrono::hours(1));
   SearchSpaces spaces(p.instance);
-  step_clock = {0, 0};
-  EXPECT_EQ(spaces.of(0, far), nullptr);
-  EXPECT_EQ(step_clock.steps, 1);
-  step_clock = {};
-  SearchSpace* made = spaces.of(0, far);
+  support::StepLimit none(0);
+  EXPECT_EQ(spaces.of(0, support::counted(none)), nullptr);
+  EXPECT_EQ(none.steps(), 1);
+  support::StepLimit enough;
+  SearchSpace* made = spaces.of(0, support::counted(enough));
   ASSERT_NE(made, nullptr);
   EXPECT_TRUE(made->finished());
-  EXPECT_GT(step_clock.steps, 5);
-  step_clock = {};
+  EXPECT_GT(enough.steps(), 5);
 }
 
 }  // namespace TEST_FILE

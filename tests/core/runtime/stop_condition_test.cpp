@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/step_limit.h"
+
 namespace fleetplan::core {
 namespace TEST_FILE {
 
@@ -44,22 +46,23 @@ TEST(StopCondition, IsMetOnceAStopIsRequested) {
 }
 
 TEST(StopCondition, IsMetAfterTheStepsOfATest) {
-  const StopCondition stop(Clock::time_point::max());
-  step_clock = {0, 2};
+  support::StepLimit limit(2);
+  const StopCondition forever(Clock::time_point::max());
+  const StopCondition stop = forever.ended_by(&limit);
   EXPECT_FALSE(stop.met());
   EXPECT_FALSE(stop.met());
   EXPECT_TRUE(stop.met());
-  EXPECT_FALSE(StopCondition::never().met());
-  EXPECT_EQ(step_clock.steps, 3);
-  step_clock = {};
-  EXPECT_FALSE(stop.met());
+  EXPECT_FALSE(StopCondition::never().ended_by(&limit).met());
+  EXPECT_EQ(limit.steps(), 3);
+  EXPECT_FALSE(forever.met());
 }
 
 TEST(StopCondition, IsMetLaterByStepsIfItOutlastsTheBudget) {
   const Clock::time_point end = Clock::now() + std::chrono::hours(1);
-  const StopCondition stop(end);
+  support::StepLimit limit(1, 2);
+  const StopCondition unlimited(end);
+  const StopCondition stop = unlimited.ended_by(&limit);
   const StopCondition check = stop.until(end + std::chrono::hours(1));
-  step_clock = {0, 1, 2};
   EXPECT_FALSE(stop.is_over());
   EXPECT_FALSE(stop.met());
   EXPECT_TRUE(stop.is_over());
@@ -68,9 +71,8 @@ TEST(StopCondition, IsMetLaterByStepsIfItOutlastsTheBudget) {
   EXPECT_FALSE(check.is_over());
   EXPECT_FALSE(check.met());
   EXPECT_TRUE(check.met());
-  EXPECT_TRUE(StopCondition::even_if_cancelled(end).met());
-  step_clock = {};
-  EXPECT_FALSE(check.met());
+  EXPECT_TRUE(stop.even_if_cancelled(end).met());
+  EXPECT_FALSE(unlimited.until(end + std::chrono::hours(1)).met());
 }
 
 }  // namespace TEST_FILE

@@ -57,14 +57,14 @@ template <typename Work>
 void expect_to_end_soon(const Work& work) {
   std::int64_t all = 0;
   {
-    const support::StepLimit limit;
-    ASSERT_TRUE(work(support::counted()));
+    support::StepLimit limit;
+    ASSERT_TRUE(work(support::counted(limit)));
     all = limit.steps();
   }
   ASSERT_GT(all, 20);
   for (std::int64_t steps = 0; steps < all; steps += all / 20) {
-    const support::StepLimit limit(steps);
-    EXPECT_FALSE(work(support::counted()));
+    support::StepLimit limit(steps);
+    EXPECT_FALSE(work(support::counted(limit)));
     EXPECT_LE(limit.late(), 4) << steps;
   }
 }
@@ -92,13 +92,13 @@ TEST(Simulator, IsNotMadeSoonAfterItsStop) {
   way.plans = {builder.build()};
   const SimulatedFleet fleet = simulated(way.grid, way.robots, way.plans);
   for (const std::int64_t steps : {0, 1, 100}) {
-    const support::StepLimit limit(steps);
-    EXPECT_FALSE(Simulator::make(fleet, way.settings, support::counted()));
+    support::StepLimit limit(steps);
+    EXPECT_FALSE(Simulator::make(fleet, way.settings, support::counted(limit)));
     EXPECT_LE(limit.late(), 4);
   }
   CallerThread callers_thread;
-  const support::StepLimit limit(100);
-  EXPECT_EQ(simulate(fleet, way.settings, support::counted(), callers_thread).totals.done, 0U);
+  support::StepLimit limit(100);
+  EXPECT_EQ(simulate(fleet, way.settings, support::counted(limit), callers_thread).totals.done, 0U);
   EXPECT_LE(limit.late(), 4);
 }
 
