@@ -1,12 +1,11 @@
 #pragma once
 
-// Priority orders: the first one, those that follow when a robot fails, and planning in one or more of them,
-// with repairs (repair.cpp) or restarts (orderings.cpp).
+// Priority orders: the first one, those that follow when a robot fails, and planning in one or more of them
+// with restarts. With repairs, see repair.h.
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <set>
 #include <vector>
 
@@ -82,38 +81,6 @@ struct OrderingResult {
   std::int64_t attempts = 1;  // times that robots were ordered and planned
   bool cut_off = false;       // the stop condition was met first
 };
-
-/// Plans all robots of `order`, which have no reservations, and repairs the plan after a failure instead of
-/// starting again: a robot that fails among all others is planned so that it conflicts with few others
-/// (EjectionSearch), and those are planned next. `unsolved` is empty unless `stop` was met. When it is,
-/// `on_stop` decides, if there is one, whether to go on.
-///
-/// A robot that fails too often for that may be in a cycle. It is planned among those of higher priority
-/// only. If that fails, it gets the highest priority (paper, section Prioritized planning), and is planned
-/// among the robots that had a higher one and are at least as large, after a start delay, or among only those
-/// that stay at their starts. The trajectories that conflict with its own are removed, and the priorities of
-/// their robots are shuffled. One that finds no path then, or fails too often for that as well, is given up:
-/// it stays at its start.
-///
-/// Before that, a robot that fails, gains nothing within the horizon, or costs much more than alone is
-/// planned past those that yield (Robot::yields), as if they left when they have served their goals; if it
-/// gains more by that than they lose, those that are in its way are planned again. So nobody moves for
-/// nothing. One that cannot make way stays.
-OrderingResult repair_all(PlanState& state, const PriorityOrder& order, Random& random,
-                          const StopCondition& stop, ProgressReport& progress,
-                          const OnStop& on_stop = nullptr);
-
-/// Plans as repair_all() does. Returns none as soon as so many attempts have failed.
-std::optional<OrderingResult> repair_unless(std::int64_t max_failures, PlanState& state,
-                                            const PriorityOrder& order, Random& random,
-                                            const StopCondition& stop, ProgressReport& progress,
-                                            const OnStop& on_stop);
-
-/// Plans the robots of `order` as repair_all() does, from a state in which some of them follow trajectories
-/// already. They keep these until a robot with a higher priority needs their way.
-OrderingResult repair_around(PlanState& state, const PriorityOrder& order, Random& random,
-                             const StopCondition& stop, ProgressReport& progress,
-                             const OnStop& on_stop = nullptr);
 
 /// Plans all robots of `order`; whenever one fails, starts again in another order (paper, section Prioritized
 /// planning). Ends when all have a trajectory, all orders have failed, or `stop` is met, and leaves the state

@@ -5,6 +5,7 @@
 #include "core/prioritized/orderings.h"
 #include "core/prioritized/partial_plan.h"
 #include "core/prioritized/prioritized_planning.h"
+#include "core/prioritized/repair.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {

@@ -8,6 +8,7 @@
 #include "core/prioritized/lattice_steps.h"
 #include "core/prioritized/orderings.h"
 #include "core/prioritized/partial_plan.h"
+#include "core/prioritized/repair.h"
 #include "core/prioritized/yielding.h"
 
 namespace fleetplan::core {

@@ -45,7 +45,7 @@ PrioritizedResult plan_prioritized(PlanState& state, const std::vector<std::size
 
 /// Plans the robots of `movers` (ascending) that have no trajectory in `state` around those that have one.
 /// Robots with a trajectory keep it unless another robot cannot be planned otherwise: then the plan is
-/// repaired (see orderings.h), and if that does not plan all robots, it is made anew, which counts if it
+/// repaired (see repair.h), and if that does not plan all robots, it is made anew, which counts if it
 /// plans more.
 ///
 /// Robots that can follow their trajectories while all others of `movers` stay where they are remain planned

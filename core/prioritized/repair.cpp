@@ -1,3 +1,5 @@
+#include "core/prioritized/repair.h"
+
 #include <algorithm>
 #include <limits>
 #include <numbers>
@@ -8,7 +10,6 @@
 
 #include "core/prioritized/ejection_search.h"
 #include "core/prioritized/lattice_steps.h"
-#include "core/prioritized/orderings.h"
 #include "core/prioritized/yielding.h"
 
 namespace fleetplan::core {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/prioritized/orderings.h"
+#include "core/prioritized/repair.h"
 #include "tests/core/support/planning.h"
 
 namespace fleetplan::core {

@@ -1,8 +1,9 @@
+#include "core/prioritized/repair.h"
+
 #include <gtest/gtest.h>
 
 #include <utility>
 
-#include "core/prioritized/orderings.h"
 #include "tests/core/support/planning.h"
 #include "tests/support/random_problem.h"
 
