@@ -45,8 +45,8 @@ HttpServer::HttpServer(const Settings& settings, Service service)
   }
 }
 
-HttpServer::Endpoint::Endpoint(HttpServer& server, Steps::Port port, int number, std::size_t max_connections,
-                               const RouteTable& routes)
+HttpServer::ServedPort::ServedPort(HttpServer& server, Steps::Port port, int number,
+                                   std::size_t max_connections, const RouteTable& routes)
     : steps(port, server.settings_, routes, server.cross_origin_, server.draining_, server.metrics_,
             server.log_),
       library({server.settings_.host, number, routes, server.log_, server.draining_}),
@@ -85,11 +85,11 @@ void HttpServer::stop() {
   if (admin_) admin_->listener.stop();
 }
 
-std::unique_ptr<Connection> HttpServer::connect(int fd, Endpoint& endpoint) {
+std::unique_ptr<Connection> HttpServer::connect(int fd, ServedPort& served) {
   return std::make_unique<Connection>(
-      fd, ConnectionContext{settings_, endpoint.steps, body_memory_, unsent_answers_, draining_,
-                            endpoint.exchanges, stop_signal_,
-                            [&endpoint](Exchange& exchange) { return endpoint.library.answer(exchange); }});
+      fd, ConnectionContext{settings_, served.steps, body_memory_, unsent_answers_, draining_,
+                            served.exchanges, stop_signal_,
+                            [&served](Exchange& exchange) { return served.library.answer(exchange); }});
 }
 
 void HttpServer::fail(const std::string& why) {

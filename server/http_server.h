@@ -73,9 +73,9 @@ class HttpServer {
 
  private:
   /// A port with its steps and its load.
-  struct Endpoint {
-    Endpoint(HttpServer& server, Steps::Port port, int number, std::size_t max_connections,
-             const RouteTable& routes);
+  struct ServedPort {
+    ServedPort(HttpServer& server, Steps::Port port, int number, std::size_t max_connections,
+               const RouteTable& routes);
 
     std::atomic<std::size_t> exchanges{0};
     Steps steps;
@@ -83,7 +83,7 @@ class HttpServer {
     Listener listener;
   };
 
-  std::unique_ptr<Connection> connect(int fd, Endpoint& endpoint);
+  std::unique_ptr<Connection> connect(int fd, ServedPort& served);
   void fail(const std::string& why);
   Gauges gauges() const;
 
@@ -104,8 +104,8 @@ class HttpServer {
   const RouteTable main_routes_;
   const RouteTable admin_routes_;
   Metrics metrics_;
-  Endpoint main_;
-  std::optional<Endpoint> admin_;
+  ServedPort main_;
+  std::optional<ServedPort> admin_;
 };
 
 }  // namespace fleetplan::server

@@ -166,14 +166,14 @@ Circumstances make_acceptable(AdvanceRequest& request, std::vector<core::Robot>&
                   [](const Execution& execution) { return execution.measured || execution.reported; });
   Circumstances found;
   if (!any_observed) {
-    found.unavoidable = unavoidable_collisions(robots, braking, work);
+    found.unavoidable = collisions_of_commitments(robots, braking, work);
     // Robots that could not stop in time overlap later on, whether they are observed then or not.
     const bool any_overlap = std::any_of(found.unavoidable.begin(), found.unavoidable.end(),
                                          [](const Collision& collision) { return collision.t == 0.0; });
     if (!any_overlap) return found;
   }
   found = Mending(request, robots, braking, maps, work).run();
-  found.unavoidable = unavoidable_collisions(robots, braking, work);
+  found.unavoidable = collisions_of_commitments(robots, braking, work);
   return found;
 }
 

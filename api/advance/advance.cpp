@@ -16,6 +16,7 @@ namespace fleetplan::api {
 namespace {
 
 using core::Action;
+using core::ActionPlace;
 using Actions = std::vector<Action>;
 
 /// The tolerance of a service, seconds: rounding of times, far below what matters.
@@ -146,7 +147,7 @@ double horizon(const Actions& actions, const Moment& moment) {
 
 /// How far a robot is.
 struct Located {
-  Progress progress;
+  TimedProgress progress;
   bool is_elsewhere = false;  // measured further from there than the tolerance
 };
 
@@ -154,11 +155,11 @@ Located locate(const core::Robot& robot, const Execution& execution, const Momen
   const Actions& actions = execution.actions;
   const auto& measured = execution.measured;
   if (execution.reported) {
-    const Progress progress = reported_progress(actions, *execution.reported);
+    const TimedProgress progress = reported_progress(actions, *execution.reported);
     const core::Pose there = pose_of(actions, *execution.reported);
     return {progress, measured && !is_near(there, *measured, moment.pose_tolerance)};
   }
-  const Progress planned = planned_progress(actions, moment.at);
+  const TimedProgress planned = planned_progress(actions, moment.at);
   if (!measured) return {planned};
   const auto progress = measured_progress(robot, actions, *measured, moment.at, moment.pose_tolerance);
   return {progress.value_or(planned), !progress};
@@ -185,7 +186,7 @@ Remainder remainder_of(const core::Robot& robot, const Execution& execution, con
                        const Moment& moment) {
   const Actions& actions = execution.actions;
   const auto& measured = execution.measured;
-  const Progress& progress = located.progress;
+  const TimedProgress& progress = located.progress;
   if (located.is_elsewhere) return {*measured, {}};
   if (!execution.reported && !measured) return remainder(robot, actions, moment.at);
   Remainder rest = execution.reported ? remainder_of_reported(robot, execution, progress, moment.at)
@@ -201,7 +202,7 @@ Remainder remainder_of(const core::Robot& robot, const Execution& execution, con
 
 /// Whether a robot that is so far in its actions is on the way, not only about to set out. Its own word
 /// counts.
-bool drives(const core::Robot& robot, const Execution& execution, const Progress& progress) {
+bool drives(const core::Robot& robot, const Execution& execution, const TimedProgress& progress) {
   const Actions& actions = execution.actions;
   const auto [index, t] = progress;
   const auto& speed = execution.speed;
@@ -370,11 +371,12 @@ std::optional<double> standing_time(const std::vector<core::Robot>& robots,
   return until;
 }
 
-Place place_of(const core::Robot& robot, const Execution& execution, const Moment& moment) {
+ActionPlace place_of(const core::Robot& robot, const Execution& execution, const Moment& moment) {
   if (execution.reported) return execution.reported->place;
   const Actions& actions = execution.actions;
-  const Progress progress = locate(robot, execution, moment).progress;
-  if (progress.action == actions.size()) return actions.empty() ? Place{} : Place{actions.size() - 1, 1.0};
+  const TimedProgress progress = locate(robot, execution, moment).progress;
+  if (progress.action == actions.size())
+    return actions.empty() ? ActionPlace{} : ActionPlace{actions.size() - 1, 1.0};
   const Action& action = actions[progress.action];
   const bool takes_time = action.t_end > action.t_start;
   return {progress.action, takes_time ? core::share_at(action, progress.t) : 0.0};

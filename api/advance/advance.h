@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/execution/dependencies.h"
 #include "core/model/action.h"
 #include "core/model/robot.h"
 #include "core/model/surroundings.h"
@@ -33,17 +34,11 @@ struct Moment {
   std::optional<double> stand_until = {};
 };
 
-/// Where a robot is in its actions.
-struct Place {
-  std::size_t action = 0;
-  double fraction = 0.0;  // of the action, that is done
-};
-
 /// How far a robot says that it is.
 struct ReportedState {
-  Place place;                              // in one of its actions
-  std::optional<double> service_left = {};  // seconds, if the action is a service
-  std::optional<Place> released = {};       // it may drive to there; nobody can take that back
+  core::ActionPlace place;                         // in one of its actions
+  std::optional<double> service_left = {};         // seconds, if the action is a service
+  std::optional<core::ActionPlace> released = {};  // it may drive to there; nobody can take that back
 };
 
 /// What a robot does, and what happened to it.
@@ -98,9 +93,9 @@ struct Collision {
 /// pairs that overlap already, and pairs of which one robot cannot stop in time. `braking`: by robot, see
 /// braking_of; a robot executes that, too, if its commitment ends before. Of many pairs, only the first are
 /// returned. Ends early when `work` is met.
-std::vector<Collision> unavoidable_collisions(const std::vector<core::Robot>& robots,
-                                              const std::vector<std::vector<core::Action>>& braking,
-                                              core::Work& work);
+std::vector<Collision> collisions_of_commitments(const std::vector<core::Robot>& robots,
+                                                 const std::vector<std::vector<core::Action>>& braking,
+                                                 core::Work& work);
 
 /// Ends committed actions early, so that every robot may stay for ever where its commitment ends: none meets
 /// another one, nor passes where another one has ended. Whatever becomes of the plans behind the commitments,
@@ -122,13 +117,13 @@ std::vector<core::Robot> advanced(const std::vector<core::Robot>& robots,
 /// Returns where the robot is in its actions at the moment: as reported, otherwise as measured, otherwise as
 /// planned. A robot that has done all of them is at the end of the last one, and one without actions at the
 /// beginning.
-Place place_of(const core::Robot& robot, const Execution& execution, const Moment& moment);
+core::ActionPlace place_of(const core::Robot& robot, const Execution& execution, const Moment& moment);
 
 /// Returns the rest of an obstacle's motion; none if it has left.
 std::optional<core::MovingObstacle> advanced(const core::MovingObstacle& obstacle, double at);
 
 /// How far a robot is in its actions.
-struct Progress {
+struct TimedProgress {
   std::size_t action = 0;  // under way; the number of all actions if they are done
   double t = 0.0;          // the planned time of this progress, seconds
 };
@@ -140,7 +135,7 @@ struct Remainder {
 };
 
 /// Returns the progress at this time by the plan.
-Progress planned_progress(const std::vector<core::Action>& actions, double at);
+TimedProgress planned_progress(const std::vector<core::Action>& actions, double at);
 
 /// Returns the pose at this time by the plan.
 core::Pose planned_pose(const core::Robot& robot, const std::vector<core::Action>& actions, double at);
@@ -148,12 +143,13 @@ core::Pose planned_pose(const core::Robot& robot, const std::vector<core::Action
 /// Returns the progress by a measured pose: the latest action, not later than the one planned at this time,
 /// whose path is no further from the pose than the tolerance (metres, and radians of the heading). A robot
 /// may be late, or early in the action under way. Returns none if there is no such action.
-std::optional<Progress> measured_progress(const core::Robot& robot, const std::vector<core::Action>& actions,
-                                          const core::Pose& pose, double at, double tolerance);
+std::optional<TimedProgress> measured_progress(const core::Robot& robot,
+                                               const std::vector<core::Action>& actions,
+                                               const core::Pose& pose, double at, double tolerance);
 
 /// Returns the progress that is reported. A service of which something is left counts as one that begins: its
 /// goal keeps what is left.
-Progress reported_progress(const std::vector<core::Action>& actions, const ReportedState& reported);
+TimedProgress reported_progress(const std::vector<core::Action>& actions, const ReportedState& reported);
 
 /// Returns the pose that the plan has at the reported progress.
 core::Pose pose_of(const std::vector<core::Action>& actions, const ReportedState& reported);
@@ -170,7 +166,7 @@ Remainder remainder(const core::Robot& robot, const std::vector<core::Action>& a
 /// `speed`: measured, metres per second; one with a profile goes on from there, by default from the planned
 /// speed.
 Remainder remainder_of_measured(const core::Robot& robot, const std::vector<core::Action>& actions,
-                                const core::Pose& pose, const Progress& progress, double at,
+                                const core::Pose& pose, const TimedProgress& progress, double at,
                                 std::optional<double> speed = {});
 
 /// Returns the remainder of a robot that has reported its progress. It goes on in the same way from the
@@ -178,7 +174,7 @@ Remainder remainder_of_measured(const core::Robot& robot, const std::vector<core
 /// goal, what is left of the service, as planned or reported, begins at the goal's `not_before` at the
 /// earliest.
 Remainder remainder_of_reported(const core::Robot& robot, const Execution& execution,
-                                const Progress& progress, double at);
+                                const TimedProgress& progress, double at);
 
 /// Returns the first actions in one line, until the robot has driven so many metres or stops: those that go
 /// on from the first one without a stop. Empty if the first one is no translation.

@@ -113,8 +113,9 @@ std::optional<core::Pose> parse_measured_at(const JsonReader& entry, const core:
 }
 
 /// Reads how far a robot is released, which is not behind it.
-std::optional<Place> parse_released(const JsonReader& member, const core::Robot& robot, const Place& place,
-                                    const std::vector<core::Action>& actions) {
+std::optional<core::ActionPlace> parse_released(const JsonReader& member, const core::Robot& robot,
+                                                const core::ActionPlace& place,
+                                                const std::vector<core::Action>& actions) {
   const JsonReader json = member.object(kPlaceMembers);
   if (!json) return std::nullopt;
   const auto number = parse_action_number(json.require("action"), robot, actions);
@@ -127,7 +128,7 @@ std::optional<Place> parse_released(const JsonReader& member, const core::Robot&
              " is further than it is released; give its own action and progress if it may go no further.";
     });
   }
-  return Place{*number, *fraction};
+  return core::ActionPlace{*number, *fraction};
 }
 
 /// Reads where a robot says that it is in its actions.
@@ -432,7 +433,7 @@ void write_obstacles(JsonWriter& json, const JsonValue& given, const AdvanceRequ
   json.end_array();
 }
 
-void write_place(JsonWriter& json, std::string_view key, const Place& place) {
+void write_place(JsonWriter& json, std::string_view key, const core::ActionPlace& place) {
   json.key(key).begin_object();
   json.member("action", place.action).member("progress", place.fraction);
   json.end_object();
@@ -481,7 +482,7 @@ void write_progress(JsonWriter& json, const AdvanceRequest& request, core::Work&
     if (work.met_after(kWorkOfALook * (1 + execution.actions.size()))) break;
     json.begin_object().member("robot", request.robots[k].id);
     write_place(json, "was", place_of(request.robots[k], execution, request.moment));
-    write_place(json, "is", Place{});
+    write_place(json, "is", core::ActionPlace{});
     json.end_object();
   }
   json.end_array();

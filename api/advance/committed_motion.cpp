@@ -233,9 +233,9 @@ class CollisionSearch {
 
 }  // namespace
 
-std::vector<Collision> unavoidable_collisions(const std::vector<core::Robot>& robots,
-                                              const std::vector<std::vector<core::Action>>& braking,
-                                              core::Work& work) {
+std::vector<Collision> collisions_of_commitments(const std::vector<core::Robot>& robots,
+                                                 const std::vector<std::vector<core::Action>>& braking,
+                                                 core::Work& work) {
   CollisionSearch search(robots, work);
   for (std::size_t k = 0; k < robots.size(); ++k) {
     if (work.met_after(kWorkOfAPiece * (1 + robots[k].committed.size()))) return {};

@@ -11,10 +11,11 @@ namespace fleetplan::api {
 namespace {
 
 using core::Action;
+using core::ActionPlace;
 using Actions = std::vector<Action>;
 
 /// The place, at an end of its action if that is nearer than rounding (seconds).
-Place at_end(const Actions& actions, Place place) {
+ActionPlace at_end(const Actions& actions, ActionPlace place) {
   constexpr double kRounding = 1e-9;
   const double duration = actions[place.action].t_end - actions[place.action].t_start;
   if (place.fraction * duration <= kRounding) {
@@ -26,7 +27,7 @@ Place at_end(const Actions& actions, Place place) {
 }
 
 /// The actions before a place, of which the one under way there is cut. The robot stands there.
-Actions before_place(const Actions& actions, const Place& place) {
+Actions before_place(const Actions& actions, const ActionPlace& place) {
   const auto index = static_cast<std::ptrdiff_t>(place.action);
   Actions before(actions.begin(), actions.begin() + index);
   if (place.fraction > 0.0) {
@@ -45,7 +46,7 @@ void start_at_rest(Actions& actions) {
 }
 
 /// The actions after a place, as many seconds earlier.
-Actions after_place(const Actions& actions, const Place& place, double earlier) {
+Actions after_place(const Actions& actions, const ActionPlace& place, double earlier) {
   const Actions before = before_place(actions, place);
   Actions after = resumed_after(before, actions);
   after.erase(after.begin(), after.begin() + static_cast<std::ptrdiff_t>(before.size()));
@@ -105,10 +106,10 @@ void pack(Actions& actions, std::size_t first, const Waits& waits, double t_end)
 }  // namespace
 
 ReleasedRest released_rest(const core::Robot& robot, const Execution& execution, const Moment& moment) {
-  const Place released = at_end(execution.actions, *execution.reported->released);
+  const ActionPlace released = at_end(execution.actions, *execution.reported->released);
   const Waits waits(robot, execution.actions, moment.wait_before_move);
   Execution until = execution;
-  Place& place = until.reported->place;
+  ActionPlace& place = until.reported->place;
   while (place.action < released.action && waits.gives_way(place.action)) place = {place.action + 1, 0.0};
   until.actions = before_place(execution.actions, released);
   const bool is_cut = place.action == released.action && released.fraction > 0.0;
@@ -120,7 +121,7 @@ ReleasedRest released_rest(const core::Robot& robot, const Execution& execution,
     return {{pose_at(next, next.t_start), {}}, std::move(after)};
   }
   pack(until.actions, place.action + 1, waits, moment.at);  // late, so that they follow each other
-  const Progress progress = reported_progress(until.actions, *until.reported);
+  const TimedProgress progress = reported_progress(until.actions, *until.reported);
   return {remainder_of_reported(robot, until, progress, moment.at), std::move(after)};
 }
 

@@ -251,28 +251,28 @@ Pose pose_at(const Action& action, double t) {
   return pose;
 }
 
-Progress planned_progress(const Actions& actions, double at) {
+TimedProgress planned_progress(const Actions& actions, double at) {
   std::size_t index = 0;
   while (index < actions.size() && actions[index].t_end <= at + kDone) ++index;
   return {index, at};
 }
 
-std::optional<Progress> measured_progress(const core::Robot& robot, const Actions& actions, const Pose& pose,
-                                          double at, double tolerance) {
+std::optional<TimedProgress> measured_progress(const core::Robot& robot, const Actions& actions,
+                                               const Pose& pose, double at, double tolerance) {
   std::size_t index = planned_progress(actions, at).action;
   if (index == actions.size()) {
     const Pose end = actions.empty() ? robot.start : actions.back().to;
-    if (is_near(end, pose, tolerance)) return Progress{index, at};
+    if (is_near(end, pose, tolerance)) return TimedProgress{index, at};
   } else {
     ++index;
   }
   while (index-- > 0) {
-    if (const auto t = time_of(actions[index], pose, at, tolerance)) return Progress{index, *t};
+    if (const auto t = time_of(actions[index], pose, at, tolerance)) return TimedProgress{index, *t};
   }
   return std::nullopt;
 }
 
-Progress reported_progress(const Actions& actions, const ReportedState& reported) {
+TimedProgress reported_progress(const Actions& actions, const ReportedState& reported) {
   const auto [action, fraction] = reported.place;
   if (!reported.service_left) return {action, core::time_at_share(actions[action], fraction)};
   const double begin = actions[action].t_start;
@@ -308,7 +308,7 @@ Remainder remainder(const core::Robot& robot, const Actions& actions, double at)
 }
 
 Remainder remainder_of_measured(const core::Robot& robot, const Actions& actions, const Pose& pose,
-                                const Progress& progress, double at, std::optional<double> speed) {
+                                const TimedProgress& progress, double at, std::optional<double> speed) {
   if (progress.action == actions.size()) return remainder(robot, actions, at);
   const Action& planned = actions[progress.action];
   return continued_from(robot, actions, progress.action, pose, shifted(actions, progress.action + 1, at),
@@ -316,7 +316,7 @@ Remainder remainder_of_measured(const core::Robot& robot, const Actions& actions
 }
 
 Remainder remainder_of_reported(const core::Robot& robot, const Execution& execution,
-                                const Progress& progress, double at) {
+                                const TimedProgress& progress, double at) {
   const Actions& actions = execution.actions;
   const Action& planned = actions[progress.action];
   const auto& service_left = execution.reported->service_left;

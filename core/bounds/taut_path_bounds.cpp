@@ -180,7 +180,7 @@ constexpr std::int64_t kLegsBetweenPolls = 64;
 
 /// Whether the robot's disk is clear of obstacles at both ends of a leg. Elsewhere it always is.
 bool fits_at_ends(const Instance& instance, std::size_t robot, std::size_t leg) {
-  const double radius = instance.stages(robot)[leg].motion.radius;
+  const double radius = instance.stages(robot)[leg].motion.wall_radius;
   const std::vector<Goal>& goals = instance.itinerary(robot).goals;
   const auto fits_at = [&](const Goal& goal) {
     return radius_at_goal(instance, robot, goal.position, leg) == radius;
@@ -253,7 +253,7 @@ void TautPathBounds::bound(const Instance& instance, const std::vector<std::size
     seconds_[robot] = end_after(instance.itinerary(robot), way.seconds);
     for (std::size_t leg = 0; leg < way.legs.size() && !cut_off_; ++leg) {
       if (++tested % kLegsBetweenPolls == 0) cut_off_ = stop.met();
-      const double radius = instance.stages(robot)[leg].motion.radius;
+      const double radius = instance.stages(robot)[leg].motion.wall_radius;
       const double reduced = radius - 2.0 * TangentGraph::kRadiusReduction;
       if (reduced <= 0.0) continue;
       if (is_straight(instance, way.legs[leg], reduced) || !fits_at_ends(instance, robot, leg)) continue;

@@ -13,29 +13,29 @@ namespace {
 /// A distance is reduced by this fraction before it is kept, so that rounding does not forbid to stay.
 constexpr double kRounding = 1e-14;
 
-bool is_at_start(Endpoint endpoint) { return endpoint == Endpoint::start || endpoint == Endpoint::leaving; }
+bool is_at_start(Terminal terminal) { return terminal == Terminal::start || terminal == Terminal::leaving; }
 
 }  // namespace
 
 struct Contacts::Point {
   Position position;
   std::size_t robot;
-  Endpoint endpoint;
+  Terminal terminal;
   double radius;
   double rounding;
   double inflation;
   bool grows = false;
 };
 
-Contacts::Contacts(std::vector<Endpoints> robots)
+Contacts::Contacts(std::vector<Terminals> robots)
     : robots_(std::move(robots)), contacts_(robots_.size()), too_many_(robots_.size(), false) {
   std::vector<Point> points;
   double largest = 0.0;
   for (std::size_t i = 0; i < robots_.size(); ++i) {
-    const Endpoints& robot = robots_[i];
+    const Terminals& robot = robots_[i];
     points.push_back({.position = robot.start,
                       .robot = i,
-                      .endpoint = Endpoint::start,
+                      .terminal = Terminal::start,
                       .radius = robot.pair_radius,
                       .rounding = robot.start_rounding,
                       .inflation = robot.inflation,
@@ -45,7 +45,7 @@ Contacts::Contacts(std::vector<Endpoints> robots)
     const double at_goal = robot.pair_radius + (robot.radius_at_goal - robot.radius_at_start);
     points.push_back({.position = *robot.goal,
                       .robot = i,
-                      .endpoint = Endpoint::goal,
+                      .terminal = Terminal::goal,
                       .radius = at_goal,
                       .rounding = robot.goal_rounding,
                       .inflation = robot.inflation});
@@ -70,7 +70,7 @@ void Contacts::compare(const Point& a, const Point& b) {
   const double distance = (a.position - b.position).norm() - a.rounding - b.rounding;
   const double kept = distance * (1.0 - kRounding);
   if (kept >= sum - kSearchSlack) return;
-  if (a.endpoint == Endpoint::start && b.endpoint == Endpoint::start) {
+  if (a.terminal == Terminal::start && b.terminal == Terminal::start) {
     const double bare = sum - a.inflation - b.inflation;
     const bool overlapping = distance < bare - kContactTolerance - 4.0 * kSamePosition;
     if (overlapping && (a.grows || b.grows)) return;
@@ -138,23 +138,23 @@ bool Contacts::overlaps_at_start(std::size_t robot) const {
                                          [](const Contact& contact) { return contact.overlapping; });
 }
 
-Endpoint Contacts::endpoint(std::size_t robot, const Segment& path, double radius, bool has_left) const {
-  if (none(robot)) return Endpoint::none;
-  const Endpoints& ends = robots_[robot];
+Terminal Contacts::terminal(std::size_t robot, const Segment& path, double radius, bool has_left) const {
+  if (none(robot)) return Terminal::none;
+  const Terminals& ends = robots_[robot];
   if (!has_left && radius == ends.radius_at_start && is_same_position(path.from, ends.start)) {
     const bool moves = path.from != path.to;
-    return moves && overlaps_at_start(robot) ? Endpoint::leaving : Endpoint::start;
+    return moves && overlaps_at_start(robot) ? Terminal::leaving : Terminal::start;
   }
   const bool at_goal = ends.goal && radius == ends.radius_at_goal && is_same_position(path.to, *ends.goal);
-  return at_goal ? Endpoint::goal : Endpoint::none;
+  return at_goal ? Terminal::goal : Terminal::none;
 }
 
-double Contacts::distance(std::size_t robot, Endpoint at, std::size_t other, Endpoint other_at,
+double Contacts::distance(std::size_t robot, Terminal at, std::size_t other, Terminal other_at,
                           double full) const {
-  if (at == Endpoint::none || other_at == Endpoint::none) return full;
+  if (at == Terminal::none || other_at == Terminal::none) return full;
   const Contact* contact = find(robot, other);
   if (contact == nullptr) return full;
-  if (at == Endpoint::leaving && other_at == Endpoint::leaving && contact->overlapping) return full;
+  if (at == Terminal::leaving && other_at == Terminal::leaving && contact->overlapping) return full;
   const bool leaving = is_at_start(at) && is_at_start(other_at);
   return std::min(full, leaving ? contact->leaving : contact->touching);
 }

@@ -17,7 +17,7 @@
 namespace fleetplan::core {
 
 /// Where a robot begins and ends, and how far the search's vertices there may be from these positions.
-struct Endpoints {
+struct Terminals {
   Position start{0.0, 0.0};
   std::optional<Position> goal;
   double pair_radius = 0.0;      // metres at the start, inflation and vicinity included
@@ -32,14 +32,14 @@ struct Endpoints {
 
 /// Where a robot stands, or moves from or to.
 /// `leaving`: moves from the start, and is one of two robots whose bare disks overlap there.
-enum class Endpoint : std::uint8_t { none, goal, start, leaving };
+enum class Terminal : std::uint8_t { none, goal, start, leaving };
 
 class Contacts {
  public:
   /// More are not listed; a robot that has more cannot leave its start.
   static constexpr std::size_t kMaxContacts = 64;
 
-  explicit Contacts(std::vector<Endpoints> robots);
+  explicit Contacts(std::vector<Terminals> robots);
 
   /// Whether no two robots are in contact.
   bool empty() const;
@@ -55,10 +55,10 @@ class Contacts {
   /// Whether the robot stands at its start or goal, or moves from its start or to its goal. `none` for a
   /// robot without contacts, or if `radius` (metres) is not the one that it begins or ends with. A robot that
   /// `has_left` its start before keeps apart from others there, too.
-  Endpoint endpoint(std::size_t robot, const Segment& path, double radius, bool has_left = false) const;
+  Terminal terminal(std::size_t robot, const Segment& path, double radius, bool has_left = false) const;
 
-  /// The distance that two robots keep at these endpoints, metres; `full` where they are not in contact.
-  double distance(std::size_t robot, Endpoint at, std::size_t other, Endpoint other_at, double full) const;
+  /// The distance that two robots keep at these ends, metres; `full` where they are not in contact.
+  double distance(std::size_t robot, Terminal at, std::size_t other, Terminal other_at, double full) const;
 
  private:
   struct Contact {
@@ -76,7 +76,7 @@ class Contacts {
   void add(std::size_t robot, const Contact& contact);
   const Contact* find(std::size_t robot, std::size_t other) const;
 
-  std::vector<Endpoints> robots_;
+  std::vector<Terminals> robots_;
   std::vector<std::vector<Contact>> contacts_;  // by robot
   std::vector<bool> too_many_;                  // by robot
 };

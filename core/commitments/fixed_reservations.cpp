@@ -29,7 +29,7 @@ class FixedReservations::Collector {
   }
 
   void add_obstacle(const MovingObstacle& obstacle, std::uint32_t index) {
-    const Owner owner{index, true, false, Endpoint::none, obstacle.radius};
+    const Owner owner{index, true, false, Terminal::none, obstacle.radius};
     const auto& first = obstacle.motion.front();
     const auto& last = obstacle.motion.back();
     const auto rest = [&](const Position& position, double t_begin, double t_end) {
@@ -51,10 +51,10 @@ class FixedReservations::Collector {
     for (const SizedSegment& segment : robot.committed) {
       from_start = from_start && segment.radius == robot.radius_at_start &&
                    is_same_position(segment.path.from, robot.start);
-      const Endpoint endpoint =
-          contacts != nullptr ? contacts->endpoint(index, segment.path, segment.radius) : Endpoint::none;
+      const Terminal terminal =
+          contacts != nullptr ? contacts->terminal(index, segment.path, segment.radius) : Terminal::none;
       add(segment, robot.disk.pair_radius_with(segment.radius),
-          {index, false, from_start, endpoint, segment.radius});
+          {index, false, from_start, terminal, segment.radius});
     }
   }
 

@@ -32,7 +32,7 @@ class FixedReservations {
     std::size_t obstacle = 0;  // index, if `is_obstacle`
     bool is_obstacle = false;
     bool from_start = false;             // of a robot: it stands at its start, or moves away from there
-    Endpoint endpoint = Endpoint::none;  // of a robot, see Contacts
+    Terminal terminal = Terminal::none;  // of a robot, see Contacts
     double radius = 0.0;                 // metres
     double pair_radius = 0.0;  // metres, of a robot to other robots: inflation and vicinity included
   };
@@ -72,7 +72,7 @@ class FixedReservations {
     std::uint32_t index = 0;
     bool is_obstacle = false;
     bool from_start = false;
-    Endpoint endpoint = Endpoint::none;
+    Terminal terminal = Terminal::none;
     double radius = 0.0;
   };
 
@@ -85,7 +85,7 @@ class FixedReservations {
             .obstacle = owner.index,
             .is_obstacle = owner.is_obstacle,
             .from_start = owner.from_start,
-            .endpoint = owner.endpoint,
+            .terminal = owner.terminal,
             .radius = owner.radius,
             .pair_radius = tree_[index].radius};
   }

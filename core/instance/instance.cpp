@@ -52,8 +52,8 @@ std::vector<Itinerary> itineraries_of(const Problem& problem) {
 }
 
 /// Where the robots of an instance begin and end; none if only one is planned at a time.
-std::vector<Endpoints> endpoints(const Instance& instance) {
-  std::vector<Endpoints> all;
+std::vector<Terminals> terminals(const Instance& instance) {
+  std::vector<Terminals> all;
   if (instance.problem().one_at_a_time()) return all;
   const double inflation = instance.options().inflation;
   for (std::size_t i = 0; i < instance.size(); ++i) {
@@ -61,7 +61,7 @@ std::vector<Endpoints> endpoints(const Instance& instance) {
     const Lattice& lattice = instance.lattice(i);
     const auto rounding = [&](const Position& p) { return (lattice.snapped(p) - p).norm(); };
     const LoadedRobot& first = instance.stages(i)[0];
-    Endpoints ends;
+    Terminals ends;
     ends.pair_radius = first.motion.pair_radius;
     ends.inflation = inflation + robot.vicinity;
     ends.start = robot.committed_end().position;
@@ -109,7 +109,7 @@ Instance::Instance(const Problem& problem, const PlanOptions& options,
       lattices_(lattices_of(problem, options)),
       itineraries_(itineraries_of(problem)),
       stages_(stages_of_robots(problem, options, itineraries_, lattices_, stop)),
-      contacts_(endpoints(*this)),
+      contacts_(terminals(*this)),
       fixed_reservations_(std::move(fixed_reservations)) {}
 
 namespace {
@@ -125,21 +125,21 @@ double radius_at_start(const Instance& instance, std::size_t robot) {
   const double overlap = std::max(0.0, options.start_overlap - options.inflation);  // of the bare disk
   const double least = std::max(radius - overlap - kMostOverlap, kSmallestDisk * radius);
   return instance.sight(robot).fitting_radius(instance.itinerary(robot).pose.position, least,
-                                              instance.motion(robot).radius);
+                                              instance.motion(robot).wall_radius);
 }
 
 double radius_at_goal(const Instance& instance, std::size_t robot, const Position& goal, std::size_t stage) {
-  const double radius = instance.stages(robot)[stage].motion.radius;
+  const double radius = instance.stages(robot)[stage].motion.wall_radius;
   return instance.sight(robot).fitting_radius(goal, radius - kMostOverlap, radius);
 }
 
 bool fits_at_start(const Instance& instance, std::size_t robot) {
   return instance.sight(robot).disk_fits(instance.itinerary(robot).pose.position,
-                                         instance.motion(robot).radius);
+                                         instance.motion(robot).wall_radius);
 }
 
 bool is_clear_at_start(const Instance& instance, std::size_t robot) {
-  return radius_at_start(instance, robot) >= instance.motion(robot).radius - kMostOverlap;
+  return radius_at_start(instance, robot) >= instance.motion(robot).wall_radius - kMostOverlap;
 }
 
 bool fits_at_goals(const Instance& instance, std::size_t robot) {
@@ -147,14 +147,14 @@ bool fits_at_goals(const Instance& instance, std::size_t robot) {
   const std::vector<Goal>& goals = instance.itinerary(robot).goals;
   for (std::size_t k = 0; k < goals.size(); ++k) {
     if (goals[k].anywhere) continue;
-    const double largest = std::max(stages[k].motion.radius, stages[k + 1].motion.radius);
+    const double largest = std::max(stages[k].motion.wall_radius, stages[k + 1].motion.wall_radius);
     if (!instance.sight(robot).disk_fits(goals[k].position, largest - kMostOverlap)) return false;
   }
   return true;
 }
 
 bool fits_at(const Instance& instance, std::size_t robot, const Position& position) {
-  return instance.sight(robot).disk_fits(position, instance.motion(robot).radius - kMostOverlap);
+  return instance.sight(robot).disk_fits(position, instance.motion(robot).wall_radius - kMostOverlap);
 }
 
 }  // namespace fleetplan::core

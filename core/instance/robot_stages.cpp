@@ -47,7 +47,8 @@ class StageMaker {
   LoadedRobot with_load(std::size_t index, const Load& load, const std::optional<DriveZones>& zones,
                         const Lattice& lattice) {
     const Motion motion = motion_of(problem_.robots()[index], options_, load);
-    LoadedRobot stage{load, motion, free_space(lattice, *problem_.map_of(index), motion.radius), nullptr};
+    LoadedRobot stage{load, motion, free_space(lattice, *problem_.map_of(index), motion.wall_radius),
+                      nullptr};
     if (!zones) return stage;
     auto loaded = std::make_shared<const DriveZones>(zones->with(load));
     if (!loaded->empty()) stage.zones = std::move(loaded);
@@ -75,9 +76,10 @@ class StageMaker {
 }  // namespace
 
 const Motion& RobotStages::slimmest_motion() const {
-  return std::min_element(
-             loads_.begin(), loads_.end(),
-             [](const LoadedRobot& a, const LoadedRobot& b) { return a.motion.radius < b.motion.radius; })
+  return std::min_element(loads_.begin(), loads_.end(),
+                          [](const LoadedRobot& a, const LoadedRobot& b) {
+                            return a.motion.wall_radius < b.motion.wall_radius;
+                          })
       ->motion;
 }
 

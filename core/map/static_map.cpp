@@ -75,26 +75,26 @@ class MapCache::Shelf {
     std::size_t users;
     std::size_t bytes;  // memory, as of when nobody used it last
   };
-  using Place = std::list<Entry>::iterator;
+  using Slot = std::list<Entry>::iterator;
 
   explicit Shelf(std::size_t most_bytes) : most_bytes_(most_bytes) {}
 
   /// Returns the place of the map that equals the grid, and counts one more user of it; none if there is
   /// none.
-  std::optional<Place> take(std::size_t hash, const OccupancyGrid& grid) {
+  std::optional<Slot> take(std::size_t hash, const OccupancyGrid& grid) {
     const std::lock_guard lock(mutex_);
-    const std::optional<Place> found = take_known(hash, grid);
+    const std::optional<Slot> found = take_known(hash, grid);
     ++(found ? hits_ : misses_);
     return found;
   }
 
   /// Keeps a map, with its first user, unless an equal one is there by now. Returns the place of the map that
   /// is kept; none if there are too many others with this hash.
-  std::optional<Place> put(std::size_t hash, const Map& map) {
+  std::optional<Slot> put(std::size_t hash, const Map& map) {
     const MemoryScope of_no_job(nullptr);
     std::list<Entry> entry{{hash, map, 1, 0}};
     const std::lock_guard lock(mutex_);
-    if (const std::optional<Place> known = take_known(hash, map->grid())) return known;
+    if (const std::optional<Slot> known = take_known(hash, map->grid())) return known;
     if (by_hash_.count(hash) >= kMostOfAHash) return std::nullopt;
     by_hash_.emplace(hash, entry.begin());
     used_.splice(used_.begin(), entry);
@@ -102,7 +102,7 @@ class MapCache::Shelf {
   }
 
   /// Counts one user less of a map. Of those that nobody uses, the ones used least recently leave.
-  void give_back(Place entry) {
+  void give_back(Slot entry) {
     const MemoryScope of_no_job(nullptr);  // the maps that are destroyed were counted elsewhere
     std::list<Entry> leaving;              // destroyed without the lock
     const std::lock_guard lock(mutex_);
@@ -116,7 +116,7 @@ class MapCache::Shelf {
     unused_.splice(unused_.begin(), used_, entry);
     unused_bytes_ += entry->bytes;
     while (unused_bytes_ > most_bytes_) {
-      const Place last = std::prev(unused_.end());
+      const Slot last = std::prev(unused_.end());
       unused_bytes_ -= last->bytes;
       by_hash_.erase(index_of(last));
       leaving.splice(leaving.end(), unused_, last);
@@ -136,19 +136,19 @@ class MapCache::Shelf {
 
   static std::size_t bytes_of(const Entry& entry) { return entry.map->bytes() + kEntryBytes; }
 
-  std::optional<Place> take_known(std::size_t hash, const OccupancyGrid& grid) {
+  std::optional<Slot> take_known(std::size_t hash, const OccupancyGrid& grid) {
     const auto [begin, end] = by_hash_.equal_range(hash);
     const auto known =
         std::find_if(begin, end, [&](const auto& item) { return item.second->map->grid() == grid; });
     if (known == end) return std::nullopt;
-    const Place entry = known->second;
+    const Slot entry = known->second;
     if (++entry->users > 1) return entry;
     unused_bytes_ -= entry->bytes;
     used_.splice(used_.begin(), unused_, entry);
     return entry;
   }
 
-  std::unordered_multimap<std::size_t, Place>::iterator index_of(Place entry) {
+  std::unordered_multimap<std::size_t, Slot>::iterator index_of(Slot entry) {
     const auto [begin, end] = by_hash_.equal_range(entry->hash);
     return std::find_if(begin, end, [&](const auto& item) { return item.second == entry; });
   }
@@ -158,7 +158,7 @@ class MapCache::Shelf {
   std::list<Entry> used_;
   std::list<Entry> unused_;  // those used most recently first
   std::size_t unused_bytes_ = 0;
-  std::unordered_multimap<std::size_t, Place> by_hash_;
+  std::unordered_multimap<std::size_t, Slot> by_hash_;
   std::uint64_t hits_ = 0;
   std::uint64_t misses_ = 0;
 };
@@ -169,7 +169,7 @@ MapCache::MapCache(std::size_t most_bytes)
 std::shared_ptr<const StaticMap> MapCache::map_of(OccupancyGrid grid, const StopCondition& stop) {
   if (!shelf_ || grid.cell_count() < kFewestCells) return static_map(std::move(grid), stop);
   const std::size_t hash = grid.hash();
-  std::optional<Shelf::Place> kept = shelf_->take(hash, grid);
+  std::optional<Shelf::Slot> kept = shelf_->take(hash, grid);
   Shelf::Map made;
   if (!kept) {
     made = static_map(std::move(grid), stop);

@@ -13,63 +13,64 @@ namespace {
 /// The length, in metres, below which a piece is joined with a neighbour, at the lower one of their speeds.
 constexpr double kShortestPiece = 1e-6;
 
-/// A part of a move with one speed; it begins where the one before ends.
-struct Part {
+/// A piece of a move with one speed; it begins where the one before ends.
+struct UntimedPiece {
   double last;  // a fraction of the move
   double speed;
 };
 
-/// Returns the parts after neighbours of one speed, and parts that are too short, have been joined.
-std::vector<Part> joined(const std::vector<Part>& parts, double length) {
-  std::vector<Part> result;
-  double first = 0.0;  // begin of the last part in the result
-  for (const Part& part : parts) {
+/// Returns the pieces after neighbours of one speed, and pieces that are too short, have been joined.
+std::vector<UntimedPiece> joined(const std::vector<UntimedPiece>& pieces, double length) {
+  std::vector<UntimedPiece> result;
+  double first = 0.0;  // begin of the last piece in the result
+  for (const UntimedPiece& piece : pieces) {
     if (result.empty()) {
-      result.push_back(part);
+      result.push_back(piece);
       continue;
     }
-    Part& before = result.back();
-    const bool is_short = std::min(before.last - first, part.last - before.last) * length < kShortestPiece;
-    if (is_short || before.speed == part.speed) {
-      before = {part.last, std::min(before.speed, part.speed)};
+    UntimedPiece& before = result.back();
+    const bool is_short = std::min(before.last - first, piece.last - before.last) * length < kShortestPiece;
+    if (is_short || before.speed == piece.speed) {
+      before = {piece.last, std::min(before.speed, piece.speed)};
     } else {
       first = before.last;
-      result.push_back(part);
+      result.push_back(piece);
     }
   }
   return result;
 }
 
-/// Returns the profiles of the parts of a move of this length; none without inertia.
-std::vector<SpeedProfile> profiles_of(const std::vector<Part>& parts, double length, const Inertia& inertia) {
+/// Returns the profiles of the pieces of a move of this length; none without inertia.
+std::vector<SpeedProfile> profiles_of(const std::vector<UntimedPiece>& pieces, double length,
+                                      const Inertia& inertia) {
   if (!inertia.is_limited) return {};
   std::vector<LimitedPart> limited;
-  limited.reserve(parts.size());
+  limited.reserve(pieces.size());
   double first = 0.0;
-  for (const Part& part : parts) {
-    limited.push_back({(part.last - first) * length, part.speed});
-    first = part.last;
+  for (const UntimedPiece& piece : pieces) {
+    limited.push_back({(piece.last - first) * length, piece.speed});
+    first = piece.last;
   }
   return fastest_profiles(limited, inertia);
 }
 
-/// Returns the parts of the segment from `from` to `to` with their times.
-std::vector<DriveZones::Piece> timed(const std::vector<Part>& parts, const Position& from, const Position& to,
-                                     const Inertia& inertia) {
+/// Returns the pieces of the segment from `from` to `to` with their times.
+std::vector<DriveZones::Piece> timed(const std::vector<UntimedPiece>& untimed, const Position& from,
+                                     const Position& to, const Inertia& inertia) {
   const double length = (to - from).norm();
-  const std::vector<SpeedProfile> profiles = profiles_of(parts, length, inertia);
+  const std::vector<SpeedProfile> profiles = profiles_of(untimed, length, inertia);
   std::vector<DriveZones::Piece> pieces;
   Position here = from;
   double first = 0.0;
   double seconds = 0.0;
-  for (const Part& part : parts) {
-    const Position next = part.last < 1.0 ? Position(from + part.last * (to - from)) : to;
-    double end = seconds + (part.last - first) * length / part.speed;
-    if (!profiles.empty()) end = seconds + duration(profiles[pieces.size()], (part.last - first) * length);
-    pieces.push_back({{here, next}, part.speed, seconds, end});
+  for (const UntimedPiece& piece : untimed) {
+    const Position next = piece.last < 1.0 ? Position(from + piece.last * (to - from)) : to;
+    double end = seconds + (piece.last - first) * length / piece.speed;
+    if (!profiles.empty()) end = seconds + duration(profiles[pieces.size()], (piece.last - first) * length);
+    pieces.push_back({{here, next}, piece.speed, seconds, end});
     if (!profiles.empty()) pieces.back().profile = profiles[pieces.size() - 1];
     here = next;
-    first = part.last;
+    first = piece.last;
     seconds = end;
   }
   return pieces;
@@ -188,12 +189,12 @@ std::vector<DriveZones::Piece> DriveZones::pieces(const Position& from, const Po
   const auto is_faster = [](const Slow& a, const Slow& b) { return a.speed > b.speed; };
   std::vector<Slow> entered;  // a heap, the slowest at its front
   auto next = slow.begin();
-  std::vector<Part> parts;
+  std::vector<UntimedPiece> untimed;
   double first = 0.0;
   // Bounded: each span is entered and left once.
   for (const double last : ends) {
     const double middle = 0.5 * (first + last);
-    Part part{last, linear_speed_};
+    UntimedPiece piece{last, linear_speed_};
     for (; next != slow.end() && next->span.first <= middle; ++next) {
       entered.push_back(*next);
       std::push_heap(entered.begin(), entered.end(), is_faster);
@@ -202,11 +203,11 @@ std::vector<DriveZones::Piece> DriveZones::pieces(const Position& from, const Po
       std::pop_heap(entered.begin(), entered.end(), is_faster);
       entered.pop_back();
     }
-    if (!entered.empty()) part.speed = std::min(part.speed, entered.front().speed);
-    parts.push_back(part);
+    if (!entered.empty()) piece.speed = std::min(piece.speed, entered.front().speed);
+    untimed.push_back(piece);
     first = last;
   }
-  return timed(joined(parts, (to - from).norm()), from, to, linear_inertia_);
+  return timed(joined(untimed, (to - from).norm()), from, to, linear_inertia_);
 }
 
 double DriveZones::translation_time(const Position& from, const Position& to) const {

@@ -20,7 +20,7 @@ namespace fleetplan::core {
 /// than the robot) and one_way. The open inside of a zone counts, up to kSamePosition.
 class DriveZones {
  public:
-  /// A part of a straight move, with one greatest speed. Without a profile, it is the speed.
+  /// A piece of a straight move, with one greatest speed. Without a profile, it is the speed.
   struct Piece {
     Segment path;
     double linear_speed = 0.0;  // metres per second

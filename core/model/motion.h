@@ -10,7 +10,7 @@ namespace fleetplan::core {
 
 /// How one robot moves, with the plan's options applied.
 struct Motion {
-  double radius = 0.0;            // metres, to walls: the bare radius (Load::radius) and the inflation
+  double wall_radius = 0.0;       // metres, to walls: the bare radius (Load::radius) and the inflation
   double linear_speed = 0.0;      // metres per second
   double angular_speed = 0.0;     // radians per second
   double wait_before_move = 0.0;  // seconds

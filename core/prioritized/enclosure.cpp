@@ -75,7 +75,7 @@ Enclosure::Enclosure(const Instance& instance, std::size_t robot, const std::vec
 /// or less if the robot is nearer to an obstacle at its start or goal.
 double Enclosure::required_clearance() const {
   const Robot& robot = instance_.robot(robot_);
-  double clearance = instance_.stages(robot_).slimmest_motion().radius;
+  double clearance = instance_.stages(robot_).slimmest_motion().wall_radius;
   const Position& start = instance_.itinerary(robot_).pose.position;
   for (const Position& position : {start, robot.goal->position}) {
     if (instance_.sight_past_walls().disk_fits(position, clearance)) continue;

@@ -270,7 +270,7 @@ class ExpectedArrivals {
   /// Whether the robot may move so, at about the time of a passage, without another one.
   bool is_free(std::size_t robot, const Segment& path, const Passage& passage) const {
     const LoadedRobot& loaded = instance_.stages(robot)[passage.stage];
-    if (!loaded.free_space->may_sweep(path.from, path.to, loaded.motion.radius)) return false;
+    if (!loaded.free_space->may_sweep(path.from, path.to, loaded.motion.wall_radius)) return false;
     bool is_free = true;
     const double duration = loaded.motion.cruise_time(path.length());
     for_each_passed(robot, passage.stage, {path, passage.t_end, passage.t_end + duration},

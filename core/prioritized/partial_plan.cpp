@@ -150,7 +150,7 @@ class SafePlanner {
 Unplanned explain(PlanState& state, const SafePlan::Staying& staying, BlockingRobots& blocking) {
   const std::size_t robot = staying.robot;
   const Way& way = state.ways().way_to_goal(robot);
-  if (way.none()) return unplanned_without_way(robot, state.instance().motion(robot).radius, way);
+  if (way.none()) return unplanned_without_way(robot, state.instance().motion(robot).wall_radius, way);
   if (!staying.has_no_path) {
     return {robot, Reason::budget_exhausted, "The time budget ended before a way was found.", {}};
   }
@@ -166,12 +166,12 @@ SafePlan make_safe(PlanState& state, const std::vector<std::size_t>& unsolved,
   return SafePlanner(state, effort, stop, progress).run(unsolved, given_up);
 }
 
-bool return_to(FleetReservations& reservations, const KeptPlan& kept, const StopCondition& stop) {
+bool return_to(FleetReservations& reservations, const PlanSnapshot& snapshot, const StopCondition& stop) {
   const bool is_over = stop.is_over();
   if (is_over) {
-    reservations.set_without_table(kept.reservations);
+    reservations.set_without_table(snapshot.reservations);
   } else {
-    reservations.restore(kept.reservations);
+    reservations.restore(snapshot.reservations);
   }
   return !is_over;
 }

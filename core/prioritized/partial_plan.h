@@ -36,14 +36,14 @@ SafePlan make_safe(PlanState& state, const std::vector<std::size_t>& unsolved,
                    ProgressReport& progress);
 
 /// A safe plan with its reservations, to return to.
-struct KeptPlan {
+struct PlanSnapshot {
   SafePlan plan;
   FleetReservations::Snapshot reservations;
 };
 
 /// Returns to the reservations of the plan. Returns whether searches may follow, which is not so when the
 /// time is over.
-bool return_to(FleetReservations& reservations, const KeptPlan& kept, const StopCondition& stop);
+bool return_to(FleetReservations& reservations, const PlanSnapshot& snapshot, const StopCondition& stop);
 
 struct PartialPlan {
   std::vector<Unplanned> unplanned;  // ascending

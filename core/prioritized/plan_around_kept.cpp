@@ -54,7 +54,7 @@ class PlanningAroundKept {
   /// Keeps the plan that needs no search: robots that can do so follow their trajectories, all others stay.
   void keep_without_search() {
     const std::vector<bool> stays = robots_that_may_have_to_stay();
-    best_ = KeptPlan{{}, kept_};
+    best_ = PlanSnapshot{{}, kept_};
     for (const std::size_t robot : movers_) {
       if (!stays[robot]) {
         certain_.push_back(robot);
@@ -126,7 +126,7 @@ class PlanningAroundKept {
   void keep_if_better(SafePlan plan) {
     result_.cut_off = result_.cut_off || plan.cut_off;
     if (best_.plan.staying.size() <= plan.staying.size() || !plans_all_certain()) return;
-    best_ = KeptPlan{std::move(plan), reservations_.snapshot()};
+    best_ = PlanSnapshot{std::move(plan), reservations_.snapshot()};
   }
 
   bool plans_all_certain() const {
@@ -161,7 +161,7 @@ class PlanningAroundKept {
       result_.cut_off = result_.cut_off || more.cut_off;
       // The search keeps slightly larger distances than the check that found certain plans to hold.
       if (plans_all_certain()) {
-        best_ = KeptPlan{std::move(more), reservations_.snapshot()};
+        best_ = PlanSnapshot{std::move(more), reservations_.snapshot()};
       } else {
         return_to(reservations_, best_, end_);
       }
@@ -242,7 +242,7 @@ class PlanningAroundKept {
   const FleetReservations::Snapshot kept_;  // reservations at first
   std::vector<std::size_t> others_;         // robots without a trajectory at first
   std::vector<std::size_t> certain_;        // robots that remain planned in every case
-  KeptPlan best_;
+  PlanSnapshot best_;
   bool in_second_part_ = false;   // the second part of the time has begun
   bool others_may_help_ = false;  // another order may plan more robots
   PrioritizedResult result_;

@@ -168,7 +168,7 @@ class PrioritizedPlanning {
                       Effort effort, const StopCondition& stop) {
     SafePlan plan = make_safe(state_, unsolved, given_up, effort, stop, progress_);
     if (best_ && best_->plan.staying.size() <= plan.staying.size()) return;
-    best_ = KeptPlan{std::move(plan), state_.reservations().snapshot()};
+    best_ = PlanSnapshot{std::move(plan), state_.reservations().snapshot()};
   }
 
   bool has_few_robots() const { return order_.size() <= kFewRobots; }
@@ -215,7 +215,7 @@ class PrioritizedPlanning {
   ProgressReport& progress_;
   PriorityOrder order_;
   StopCondition stop_;  // ends the first attempt
-  std::optional<KeptPlan> best_;
+  std::optional<PlanSnapshot> best_;
   PrioritizedResult result_;
 };
 

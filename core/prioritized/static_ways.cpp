@@ -97,7 +97,7 @@ Way StaticWays::way_off_lattice(std::size_t robot, const StopCondition& stop) co
   if (enclosure.find(kOffLatticeSteps).answer == Enclosure::Answer::closed)
     return {Way::Kind::closed, {}, {}};
   const double limit =
-      2.0 * instance_.motion(robot).radius + kWidestCells * instance_.lattice(robot).spacing();
+      2.0 * instance_.motion(robot).wall_radius + kWidestCells * instance_.lattice(robot).spacing();
   return {Way::Kind::not_on_lattice, {}, enclosure.widest_way(limit, kOffLatticeSteps)};
 }
 

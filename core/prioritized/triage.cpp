@@ -208,7 +208,7 @@ class Triage {
   }
 
   void give_up_without_way(std::size_t i, const Way& way) {
-    unplanned_[i] = unplanned_without_way(i, instance_.motion(i).radius, way);
+    unplanned_[i] = unplanned_without_way(i, instance_.motion(i).wall_radius, way);
     stay(i);
   }
 

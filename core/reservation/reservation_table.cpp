@@ -33,20 +33,20 @@ class CollisionDistance {
       : robot_(mine.robot),
         radius_(index.disk(mine.robot).pair_radius_with(mine.radius)),
         contacts_(index.contacts()) {
-    if (contacts_ != nullptr) endpoint_ = contacts_->endpoint(mine.robot, path, mine.radius, mine.has_left);
+    if (contacts_ != nullptr) terminal_ = contacts_->terminal(mine.robot, path, mine.radius, mine.has_left);
   }
 
   double operator()(const Occupant& other) const {
     const double full = radius_ + other.radius - kSearchSlack;
-    if (endpoint_ == Endpoint::none) return full;
-    return contacts_->distance(robot_, endpoint_, other.robot, other.endpoint, full);
+    if (terminal_ == Terminal::none) return full;
+    return contacts_->distance(robot_, terminal_, other.robot, other.terminal, full);
   }
 
  private:
   std::size_t robot_;
   double radius_;  // to other robots
   const Contacts* contacts_;
-  Endpoint endpoint_ = Endpoint::none;
+  Terminal terminal_ = Terminal::none;
 };
 
 /// The interval margin of a robot that stands somewhere. What has passed before the robot's commitment ended
@@ -151,7 +151,7 @@ class ReservationTable::FixedDistance {
         begins_at_commitment_end_(fixed_.begins_at_commitment_end(robot_, path.from)),
         stays_(begins_at_commitment_end_ && path.from == path.to &&
                radius_ == fixed_.robot(robot_).radius_at_committed_end) {
-    if (contacts_ != nullptr) endpoint_ = contacts_->endpoint(robot_, path, radius_, mine.has_left);
+    if (contacts_ != nullptr) terminal_ = contacts_->terminal(robot_, path, radius_, mine.has_left);
   }
 
   /// Inflation is for pairs of robots that may choose: a robot that still stands where its commitment ends
@@ -162,8 +162,8 @@ class ReservationTable::FixedDistance {
       return radius_ + other.radius - slack;
     }
     double distance = pair_radius_ + other.pair_radius - kSearchSlack;
-    if (endpoint_ != Endpoint::none) {
-      distance = contacts_->distance(robot_, endpoint_, other.robot, other.endpoint, distance);
+    if (terminal_ != Terminal::none) {
+      distance = contacts_->distance(robot_, terminal_, other.robot, other.terminal, distance);
     }
     if (!stays_) return distance;
     distance = std::min(distance, radius_ + other.radius - kContactTolerance);
@@ -182,7 +182,7 @@ class ReservationTable::FixedDistance {
   double pair_radius_;
   bool begins_at_commitment_end_;
   bool stays_;
-  Endpoint endpoint_ = Endpoint::none;
+  Terminal terminal_ = Terminal::none;
 };
 
 ReservationTable::ReservationTable(double width, double height, double cell_size,

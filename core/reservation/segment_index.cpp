@@ -65,11 +65,11 @@ SegmentIndex::SegmentIndex(double width, double height, double cell_size, std::v
 }
 
 SegmentIndex::DiskId SegmentIndex::store(std::size_t robot, const SizedSegment& segment, bool has_left) {
-  const Endpoint endpoint = contacts_ != nullptr
-                                ? contacts_->endpoint(robot, segment.path, segment.radius, has_left)
-                                : Endpoint::none;
+  const Terminal terminal = contacts_ != nullptr
+                                ? contacts_->terminal(robot, segment.path, segment.radius, has_left)
+                                : Terminal::none;
   const double radius = disks_[robot].pair_radius_with(segment.radius);
-  const Occupant occupant{MovingDisk(segment), radius, robot, endpoint};
+  const Occupant occupant{MovingDisk(segment), radius, robot, terminal};
   has_ramps_ = has_ramps_ || segment.ramp != 0.0;
   if (vacant_.empty()) {
     numbers_.resize(occupants_.size() + 1);  // first, as memory may be spent

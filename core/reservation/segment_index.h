@@ -30,7 +30,7 @@ class SegmentIndex {
     MovingDisk disk;
     double radius = 0.0;  // metres, to other robots
     std::size_t robot = 0;
-    Endpoint endpoint = Endpoint::none;
+    Terminal terminal = Terminal::none;
   };
 
  private:

@@ -78,7 +78,7 @@ class SearchSpace {
   }
   /// The radius to walls in a stage or, with goal_count(), at rest at the last goal; metres, inflation
   /// included.
-  double wall_radius(std::size_t stage) const { return (*stages_)[stage].motion.radius; }
+  double wall_radius(std::size_t stage) const { return (*stages_)[stage].motion.wall_radius; }
   Footprint footprint(std::size_t stage) const {
     return {robot_, (*stages_)[stage].load.radius, stage > goals_at_start_};
   }

@@ -31,7 +31,7 @@ std::size_t work_to_add_to(const OwnVertices& own) {
 OwnVertices::OwnVertices(const Instance& instance, std::size_t robot, std::size_t stage)
     : instance_(instance),
       stage_(stage),
-      robot_radius_(instance.stages(robot)[stage].motion.radius),
+      robot_radius_(instance.stages(robot)[stage].motion.wall_radius),
       lattice_(instance.lattice(robot)),
       free_space_(*instance.stages(robot)[stage].free_space),
       finer_(free_space_.finer()),
@@ -236,7 +236,7 @@ Vertices::Vertices(const Instance& instance, std::size_t robot, std::size_t stag
 
 bool Vertices::is_free(int from, int to) const {
   if (own_.contains(from) || own_.contains(to)) return own_.is_free(from, to);
-  return free_space_.may_sweep(position(from), position(to), motion().radius);
+  return free_space_.may_sweep(position(from), position(to), motion().wall_radius);
 }
 
 }  // namespace fleetplan::core

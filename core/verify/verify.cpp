@@ -400,7 +400,7 @@ class FleetCheck {
     violations_.add(check_motion(robot, plan, given, loads, tolerance, stop_));
     const GoalsLeft goals_left =
         may_leave_goals(robot, plan, tolerance) ? GoalsLeft::allowed : GoalsLeft::none;
-    for (Violation& wrong : check_endpoints(robot, plan, tolerance, goals_left))
+    for (Violation& wrong : check_terminals(robot, plan, tolerance, goals_left))
       violations_.add(std::move(wrong));
     for (Violation& wrong : check_visits(robot, plan, tolerance, goals_left, stop_))
       violations_.add(std::move(wrong));

@@ -107,11 +107,11 @@ std::optional<std::vector<DisturbedActions>> draw_disturbances(const std::vector
   return drawn;
 }
 
-std::optional<std::vector<Phase>> moving_phases(const DisturbedActions& disturbed, std::size_t action,
-                                                const StopCondition& stop) {
+std::optional<std::vector<ActionPhase>> moving_phases(const DisturbedActions& disturbed, std::size_t action,
+                                                      const StopCondition& stop) {
   constexpr std::size_t kPhasesBetweenPolls = 1024;
   const double moving = disturbed.actions[action].moving;
-  std::vector<Phase> phases;
+  std::vector<ActionPhase> phases;
   double moved = 0.0;
   double fraction = 0.0;
   for (const DisturbedActions::Halt& halt : disturbed.halts(action)) {

@@ -90,15 +90,15 @@ std::optional<std::vector<DisturbedActions>> draw_disturbances(const std::vector
 
 /// A part of an action that takes a fixed time. During it the robot moves at constant speed from the end of
 /// the part before to this fraction of the action; it stands if the fraction is the same.
-struct Phase {
+struct ActionPhase {
   double seconds = 0.0;
   double to_fraction = 0.0;
 };
 
 /// The phases of a rotation or translation, after its start delay: it moves and halts in turn, as if at its
 /// mean speed. Returns none if `stop` is met first.
-std::optional<std::vector<Phase>> moving_phases(const DisturbedActions& disturbed, std::size_t action,
-                                                const StopCondition& stop);
+std::optional<std::vector<ActionPhase>> moving_phases(const DisturbedActions& disturbed, std::size_t action,
+                                                      const StopCondition& stop);
 
 /// Whether the robot is at speed when an action begins, so that nothing can delay it.
 inline bool goes_on_at_speed(Actions actions, std::size_t action) {

@@ -34,7 +34,7 @@ std::optional<ExecutedProgress> execute_alone(const PlannedExecution& planned, s
     } else if (action.type != Action::Type::wait) {
       const auto phases = moving_phases(disturbed, k, stop);
       if (!phases) return std::nullopt;
-      for (const Phase& phase : *phases) builder.go_on(phase.seconds, phase.to_fraction);
+      for (const ActionPhase& phase : *phases) builder.go_on(phase.seconds, phase.to_fraction);
     } else if (planned.policy == ExecutionPolicy::open_loop) {
       builder.go_on(action.t_end - action.t_start, 1.0);
     } else {

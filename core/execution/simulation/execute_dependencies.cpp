@@ -104,7 +104,7 @@ class DependentExecution {
     std::size_t next_awaited = 0;
     std::size_t action = 0;  // index of the present or next one
     bool begun = false;      // the action has begun
-    std::vector<Phase> phases = {};
+    std::vector<ActionPhase> phases = {};
     std::size_t phase = 0;
     ProgressBuilder builder = {};
     std::optional<DisturbedDrive> driven = {};
@@ -181,7 +181,7 @@ class DependentExecution {
   /// is kept.
   bool advance_phase(std::size_t index) {
     Robot& robot = robots_[index];
-    Phase& phase = robot.phases[robot.phase];
+    ActionPhase& phase = robot.phases[robot.phase];
     while (robot.gate < robot.gates.size()) {
       if (stops_after(1)) return false;
       const ActionPlace& place = robot.gates[robot.gate].place;

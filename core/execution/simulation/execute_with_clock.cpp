@@ -69,7 +69,7 @@ std::optional<std::vector<ClockPhase>> clock_phases(const std::vector<Action>& a
     double fraction = 0.0;
     const auto moving = moving_phases(disturbed, k, stop);
     if (!moving) return std::nullopt;
-    for (const Phase& phase : *moving) {
+    for (const ActionPhase& phase : *moving) {
       const double planned = action.t_end - begin;
       const Kind kind = phase.to_fraction > fraction ? Kind::moves : Kind::stands;
       phases.push_back({.kind = kind,

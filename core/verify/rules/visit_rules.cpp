@@ -35,7 +35,7 @@ std::optional<Violation> check_pose(const Violation& blank, const Pose& pose, co
 
 }  // namespace
 
-std::vector<Violation> check_endpoints(const Robot& robot, const RobotPlan& plan, const Tolerance& tolerance,
+std::vector<Violation> check_terminals(const Robot& robot, const RobotPlan& plan, const Tolerance& tolerance,
                                        GoalsLeft goals_left) {
   std::vector<Violation> violations;
   const bool stays = plan.actions.empty();

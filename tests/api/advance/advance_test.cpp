@@ -303,7 +303,7 @@ TEST(AdvanceByState, AHeldRobotGoesOnLater) {
 
 TEST(AdvanceByState, ThePlaceIsThatOfTheStateOrOfThePlan) {
   const auto expect_place = [](const Execution& execution, double at, std::size_t action, double fraction) {
-    const Place place = place_of(robot(), execution, moment(at));
+    const core::ActionPlace place = place_of(robot(), execution, moment(at));
     EXPECT_EQ(place.action, action) << at;
     EXPECT_DOUBLE_EQ(place.fraction, fraction) << at;
   };
@@ -320,7 +320,7 @@ TEST(AdvanceByState, ThePlaceIsThatOfTheStateOrOfThePlan) {
 }
 
 /// The plan of a robot that may drive to a place already.
-Execution released(Place at, Place until) {
+Execution released(core::ActionPlace at, core::ActionPlace until) {
   Execution execution = reported(at.action, at.fraction);
   execution.reported->released = until;
   return execution;

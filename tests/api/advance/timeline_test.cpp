@@ -242,7 +242,7 @@ TEST(Timeline, AServiceGoesOnWhileTheRobotIsHeld) {
 Remainder measured(const Pose& pose, double at) {
   const auto progress = measured_progress(robot(), corner(), pose, at, 0.1);
   EXPECT_TRUE(progress);
-  Remainder rest = remainder_of_measured(robot(), corner(), pose, progress.value_or(Progress{}), at);
+  Remainder rest = remainder_of_measured(robot(), corner(), pose, progress.value_or(TimedProgress{}), at);
   expect_contiguous(rest);
   return rest;
 }

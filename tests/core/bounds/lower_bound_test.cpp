@@ -66,7 +66,7 @@ TEST_P(LowerBoundOfRandomProblems, NeverExceedsTheCostOfTheRobotAloneAndIsExactI
     const double bound = lower_bound(robot, p.instance.options());
     ASSERT_GE(found->cost, bound - 1e-8);
     const bool seen = p.instance.sight_past_walls().may_sweep(robot.start.position, robot.goal->position,
-                                                              p.instance.motion(0).radius);
+                                                              p.instance.motion(0).wall_radius);
     if (seen && GetParam()) {
       ASSERT_NEAR(found->cost, bound, 1e-8);
     }

@@ -353,7 +353,7 @@ TEST(TautPathBounds, TakeLimitedWorkForManyRobotsOnALargeMapWithManyCorners) {
   EXPECT_FALSE(bounds.cut_off());
   CornerVisibility corners(grid, 0.3, 0.4, StopCondition::never());
   for (const std::size_t robot : {std::size_t{0}, all.back()}) {
-    TautPathSearch search(corners, instance.sight_past_walls(), instance.motion(robot).radius);
+    TautPathSearch search(corners, instance.sight_past_walls(), instance.motion(robot).wall_radius);
     const double whole = search
                              .run(legs_of(instance.itinerary(robot))[0], instance.motion(robot), kForever,
                                   1'000'000'000, StopCondition::never())
@@ -395,9 +395,9 @@ TEST(TautPathSearch, ReturnsHigherBoundsAfterMoreWork) {
   double before = lower_bound(instance.robot(0), instance.options());
   const double first = before;
   for (const std::int64_t work : {0, 400, 1200, 1000000}) {
-    CornerVisibility corners(problem.grid(), instance.motion(0).radius, instance.motion(0).radius,
+    CornerVisibility corners(problem.grid(), instance.motion(0).wall_radius, instance.motion(0).wall_radius,
                              StopCondition::never());
-    TautPathSearch search(corners, instance.sight_past_walls(), instance.motion(0).radius);
+    TautPathSearch search(corners, instance.sight_past_walls(), instance.motion(0).wall_radius);
     const TautPathResult result = search.run(legs_of(instance.itinerary(0))[0], instance.motion(0), kForever,
                                              work, StopCondition::never());
     EXPECT_FALSE(result.cut_off);
@@ -415,7 +415,7 @@ TEST(TautPathSearch, NeedsLessWorkWhereAPlanIsKnown) {
   }
   const Problem problem = make_problem(pillars, {robot_at(13.5, 14.5).to(19.5, 14.5)});
   const Instance instance(problem, {}, StopCondition::never());
-  const double radius = instance.motion(0).radius;
+  const double radius = instance.motion(0).wall_radius;
   const auto work = [&](double at_most) {
     CornerVisibility corners(problem.grid(), radius, radius, StopCondition::never());
     TautPathSearch search(corners, instance.sight_past_walls(), radius);

@@ -18,10 +18,10 @@ using Robots = std::vector<std::size_t>;
 constexpr double kRadius = 0.25;  // metres, of all robots
 constexpr double kInflation = 0.25;
 
-Endpoints at(double x, double y, std::optional<Position> goal = std::nullopt) {
+Terminals at(double x, double y, std::optional<Position> goal = std::nullopt) {
   return {{x, y}, goal, kRadius + kInflation, 0.0, 0.0, kInflation, kRadius, kRadius};
 }
-Endpoints at(double x, double y, double goal_x, double goal_y) { return at(x, y, Position(goal_x, goal_y)); }
+Terminals at(double x, double y, double goal_x, double goal_y) { return at(x, y, Position(goal_x, goal_y)); }
 
 Segment rest(double x, double y) { return {{x, y}, {x, y}}; }
 SizedSegment motion(const Segment& path, double t_start, double t_end) {
@@ -32,7 +32,7 @@ std::vector<SizedSegment> resting(double x, double y) { return {motion(rest(x, y
 TEST(Contacts, AreNoneWhereRobotsKeepTheirDistance) {
   const Contacts contacts({at(1, 1, 5, 1), at(2, 1, 6, 1), at(2, 2)});
   EXPECT_TRUE(contacts.empty()) << "touching is not too near";
-  EXPECT_EQ(contacts.endpoint(0, rest(1, 1), kRadius), Endpoint::none) << "nothing to look up";
+  EXPECT_EQ(contacts.terminal(0, rest(1, 1), kRadius), Terminal::none) << "nothing to look up";
 }
 
 TEST(Contacts, KeepTheDistanceOfTheStartsWhileBothLeave) {
@@ -41,23 +41,23 @@ TEST(Contacts, KeepTheDistanceOfTheStartsWhileBothLeave) {
   EXPECT_EQ(contacts.at_start(1), Robots{0});
   EXPECT_TRUE(contacts.none(2));
   EXPECT_NEAR(contacts.deficit(0), 0.25, 1e-12);
-  EXPECT_EQ(contacts.endpoint(0, {{1, 1}, {1, 2}}, kRadius), Endpoint::start);
-  EXPECT_EQ(contacts.endpoint(0, {{1, 2}, {1, 1}}, kRadius), Endpoint::none)
+  EXPECT_EQ(contacts.terminal(0, {{1, 1}, {1, 2}}, kRadius), Terminal::start);
+  EXPECT_EQ(contacts.terminal(0, {{1, 2}, {1, 1}}, kRadius), Terminal::none)
       << "only moves from the start leave";
-  EXPECT_NEAR(contacts.distance(0, Endpoint::start, 1, Endpoint::start, 1.0), 0.75, 1e-12);
-  EXPECT_LT(contacts.distance(0, Endpoint::start, 1, Endpoint::start, 1.0), 0.75) << "it may stay";
-  EXPECT_EQ(contacts.distance(0, Endpoint::none, 1, Endpoint::start, 1.0), 1.0);
-  EXPECT_EQ(contacts.distance(0, Endpoint::goal, 1, Endpoint::start, 1.0), 1.0);
-  EXPECT_EQ(contacts.distance(0, Endpoint::start, 2, Endpoint::start, 1.0), 1.0);
+  EXPECT_NEAR(contacts.distance(0, Terminal::start, 1, Terminal::start, 1.0), 0.75, 1e-12);
+  EXPECT_LT(contacts.distance(0, Terminal::start, 1, Terminal::start, 1.0), 0.75) << "it may stay";
+  EXPECT_EQ(contacts.distance(0, Terminal::none, 1, Terminal::start, 1.0), 1.0);
+  EXPECT_EQ(contacts.distance(0, Terminal::goal, 1, Terminal::start, 1.0), 1.0);
+  EXPECT_EQ(contacts.distance(0, Terminal::start, 2, Terminal::start, 1.0), 1.0);
 }
 
 TEST(Contacts, OfBareDisksAreLeftOneAfterTheOther) {
   const Contacts contacts({at(1, 1), at(1.4, 1)});  // nearer than without inflation
-  EXPECT_EQ(contacts.endpoint(0, rest(1, 1), kRadius), Endpoint::start);
-  EXPECT_EQ(contacts.endpoint(0, {{1, 1}, {1, 2}}, kRadius), Endpoint::leaving);
-  EXPECT_NEAR(contacts.distance(0, Endpoint::leaving, 1, Endpoint::start, 1.0), 0.4, 1e-12);
-  EXPECT_NEAR(contacts.distance(0, Endpoint::start, 1, Endpoint::leaving, 1.0), 0.4, 1e-12);
-  EXPECT_EQ(contacts.distance(0, Endpoint::leaving, 1, Endpoint::leaving, 1.0), 1.0);
+  EXPECT_EQ(contacts.terminal(0, rest(1, 1), kRadius), Terminal::start);
+  EXPECT_EQ(contacts.terminal(0, {{1, 1}, {1, 2}}, kRadius), Terminal::leaving);
+  EXPECT_NEAR(contacts.distance(0, Terminal::leaving, 1, Terminal::start, 1.0), 0.4, 1e-12);
+  EXPECT_NEAR(contacts.distance(0, Terminal::start, 1, Terminal::leaving, 1.0), 0.4, 1e-12);
+  EXPECT_EQ(contacts.distance(0, Terminal::leaving, 1, Terminal::leaving, 1.0), 1.0);
 }
 
 TEST(Contacts, DoNotDependOnTheRoundingOfSquares) {
@@ -76,27 +76,27 @@ TEST(Contacts, DoNotDependOnTheRoundingOfSquares) {
 
 TEST(Contacts, AtGoalsAllowForContactOnly) {
   const Contacts contacts({at(1, 1, 5, 1), at(1, 3, 6 - 4e-7, 1), at(1, 5, 5, 1.9), at(4 + 4e-7, 1)});
-  EXPECT_EQ(contacts.endpoint(0, {{3, 1}, {5, 1}}, kRadius), Endpoint::goal);
-  EXPECT_NEAR(contacts.distance(0, Endpoint::goal, 1, Endpoint::goal, 1.0), 1.0 - 4e-7, 1e-12);
-  EXPECT_EQ(contacts.distance(0, Endpoint::goal, 2, Endpoint::goal, 1.0), 1.0) << "not just contact";
-  EXPECT_NEAR(contacts.distance(0, Endpoint::goal, 3, Endpoint::start, 1.0), 1.0 - 4e-7, 1e-12);
+  EXPECT_EQ(contacts.terminal(0, {{3, 1}, {5, 1}}, kRadius), Terminal::goal);
+  EXPECT_NEAR(contacts.distance(0, Terminal::goal, 1, Terminal::goal, 1.0), 1.0 - 4e-7, 1e-12);
+  EXPECT_EQ(contacts.distance(0, Terminal::goal, 2, Terminal::goal, 1.0), 1.0) << "not just contact";
+  EXPECT_NEAR(contacts.distance(0, Terminal::goal, 3, Terminal::start, 1.0), 1.0 - 4e-7, 1e-12);
 }
 
 TEST(Contacts, AreThoseOfTheRadiiThatARobotBeginsAndEndsWith) {
-  Endpoints grows = at(1, 1, 5, 1);
+  Terminals grows = at(1, 1, 5, 1);
   grows.radius_at_goal = 0.5;
   const Contacts contacts({grows, at(1.75, 1), at(6.1, 1)});
-  EXPECT_EQ(contacts.endpoint(0, rest(1, 1), kRadius), Endpoint::start);
-  EXPECT_EQ(contacts.endpoint(0, rest(1, 1), 0.5), Endpoint::none);
-  EXPECT_EQ(contacts.endpoint(0, rest(5, 1), 0.5), Endpoint::goal);
-  EXPECT_EQ(contacts.endpoint(0, rest(5, 1), kRadius), Endpoint::none);
+  EXPECT_EQ(contacts.terminal(0, rest(1, 1), kRadius), Terminal::start);
+  EXPECT_EQ(contacts.terminal(0, rest(1, 1), 0.5), Terminal::none);
+  EXPECT_EQ(contacts.terminal(0, rest(5, 1), 0.5), Terminal::goal);
+  EXPECT_EQ(contacts.terminal(0, rest(5, 1), kRadius), Terminal::none);
 }
 
 TEST(Contacts, AreLimitedInNumberButSeenFromBothSides) {
-  std::vector<Endpoints> robots{at(5, 5)};
+  std::vector<Terminals> robots{at(5, 5)};
   for (int k = 0; k < 100; ++k) {
     const double angle = k * std::numbers::pi / 50.0;
-    Endpoints small = at(5 + 0.5 * std::cos(angle), 5 + 0.5 * std::sin(angle));
+    Terminals small = at(5 + 0.5 * std::cos(angle), 5 + 0.5 * std::sin(angle));
     small.pair_radius = 0.01;
     robots.push_back(small);
   }
@@ -105,7 +105,7 @@ TEST(Contacts, AreLimitedInNumberButSeenFromBothSides) {
   EXPECT_EQ(contacts.at_start(0).size(), Contacts::kMaxContacts);
   for (std::size_t k = 1; k <= 100; ++k) {
     EXPECT_FALSE(contacts.too_many(k));
-    EXPECT_NEAR(contacts.distance(0, Endpoint::start, k, Endpoint::start, 0.51), 0.5, 1e-12);
+    EXPECT_NEAR(contacts.distance(0, Terminal::start, k, Terminal::start, 0.51), 0.5, 1e-12);
   }
 }
 

@@ -254,8 +254,8 @@ TEST_P(NearStarts, DoNotComeNearerWhileBothLeave) {
     const double apart = dice.between(0.3, 1.0);
     const Position b = a + apart * direction();
     constexpr double kRadius = 0.5;
-    const Endpoints at_a{a, std::nullopt, kRadius, 0.0, 0.0, 0.0, kRadius};
-    const Endpoints at_b{b, std::nullopt, kRadius, 0.0, 0.0, 0.0, kRadius};
+    const Terminals at_a{a, std::nullopt, kRadius, 0.0, 0.0, 0.0, kRadius};
+    const Terminals at_b{b, std::nullopt, kRadius, 0.0, 0.0, 0.0, kRadius};
     const Contacts contacts({at_a, at_b});
     ReservationTable table(kSize, kSize, 1.0, disks_of({kRadius, kRadius}), &contacts);
     const double leaves = dice.between(0.0, 3.0);
