@@ -28,8 +28,7 @@ class FixedReservations {
   /// A part of the motion of an obstacle or of a robot.
   struct Occupant {
     MovingDisk disk;
-    std::size_t robot = 0;     // index, or
-    std::size_t obstacle = 0;  // index, if `is_obstacle`
+    std::size_t index = 0;  // of the robot, or of the obstacle
     bool is_obstacle = false;
     bool from_start = false;             // of a robot: it stands at its start, or moves away from there
     Terminal terminal = Terminal::none;  // of a robot, see Contacts
@@ -63,7 +62,7 @@ class FixedReservations {
   bool visit(std::size_t robot, const MovingDisk& mine, double radius, double margin, Visitor&& visit) const {
     return tree_.visit(mine, radius, margin, [&](std::size_t index) {
       const Occupant other = occupant(index);
-      return (!other.is_obstacle && other.robot == robot) || visit(other);
+      return (!other.is_obstacle && other.index == robot) || visit(other);
     });
   }
 
@@ -81,8 +80,7 @@ class FixedReservations {
   Occupant occupant(std::size_t index) const {
     const Owner& owner = owners_[index];
     return {.disk = tree_[index].motion,
-            .robot = owner.index,
-            .obstacle = owner.index,
+            .index = owner.index,
             .is_obstacle = owner.is_obstacle,
             .from_start = owner.from_start,
             .terminal = owner.terminal,

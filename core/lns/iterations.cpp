@@ -187,7 +187,7 @@ std::optional<Exhaustion::Test> Exhaustion::next_test(std::int64_t expansions) {
 }
 
 void Exhaustion::run(Test& test, PlanState& state, const StopCondition& stop) const {
-  test.result = state.plan_ignoring(incumbent_.planned(), test.robot, test.limits, stop);
+  test.result = state.plan_ignoring(test.robot, incumbent_.planned(), test.limits, stop);
 }
 
 void Exhaustion::learn(const Test& test) {

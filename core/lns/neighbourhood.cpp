@@ -184,7 +184,7 @@ class NeighbourhoodPlanning {
 
   SearchResult search(const std::vector<std::size_t>& ignored, std::size_t robot,
                       const SearchLimits& limits) {
-    SearchResult result = state_.plan_ignoring(ignored, robot, limits, stop_);
+    SearchResult result = state_.plan_ignoring(robot, ignored, limits, stop_);
     ++searches_;
     expansions_ += result.expansions;
     return result;

@@ -36,12 +36,12 @@ SearchResult EjectionSearch::plan(std::size_t robot, Robots planned, const std::
   sort_by_ejection(planned, failures);
   for (const std::size_t count : counts_to_ignore(planned)) {
     const Robots ignored(planned.begin(), planned.begin() + static_cast<std::ptrdiff_t>(count));
-    SearchResult result = state_.plan_ignoring(ignored, robot, ejection_limits(), stop_);
+    SearchResult result = state_.plan_ignoring(robot, ignored, ejection_limits(), stop_);
     if (!result.trajectory) continue;
     protected_until_[robot] = calls_ + 2 + static_cast<std::int64_t>(random_.below(kMostProtectedCalls));
     return eject_fewer(robot, std::move(result), planned);
   }
-  return state_.plan_ignoring(planned, robot, {}, stop_);
+  return state_.plan_ignoring(robot, planned, {}, stop_);
 }
 
 /// Sorts robots so that those to be ejected first come first; equals are in random order.
@@ -79,7 +79,7 @@ SearchResult EjectionSearch::eject_fewer(std::size_t robot, SearchResult result,
     const auto rest = candidates.begin() + static_cast<std::ptrdiff_t>(count);
     Robots ignored(rest, candidates.end());
     ignored.insert(ignored.end(), needed.begin(), needed.end());
-    SearchResult better = state_.plan_ignoring(ignored, robot, ejection_limits(), stop_);
+    SearchResult better = state_.plan_ignoring(robot, ignored, ejection_limits(), stop_);
     if (better.trajectory) {
       result = std::move(better);
       const Robots now = state_.reservations().conflicting_robots(robot, *result.trajectory);

@@ -189,7 +189,7 @@ std::vector<std::size_t> BlockingRobots::find(std::size_t robot) {
     const std::int64_t before = state_.expansions();
     std::vector<std::size_t> fewer = blocking;
     fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k));
-    const auto found = state_.plan_ignoring(fewer, robot, {}, stop_).trajectory;
+    const auto found = state_.plan_ignoring(robot, fewer, {}, stop_).trajectory;
     if (found && !(followed && found->gains_nothing)) {
       blocking = std::move(fewer);
     } else {
@@ -214,12 +214,6 @@ PartialPlan explain(PlanState& state, const SafePlan& plan, const StopCondition&
   }
   partial.cut_off = plan.cut_off || (!plan.staying.empty() && stop.met());
   return partial;
-}
-
-PartialPlan make_partial_plan(PlanState& state, const std::vector<std::size_t>& unsolved,
-                              const std::vector<std::size_t>& given_up, const StopCondition& stop,
-                              ProgressReport& progress) {
-  return explain(state, make_safe(state, unsolved, given_up, Effort::full, stop, progress), stop);
 }
 
 }  // namespace fleetplan::core

@@ -74,10 +74,4 @@ class BlockingRobots {
 /// Returns the reasons of the robots that stay in `state`, and the robots that block them.
 PartialPlan explain(PlanState& state, const SafePlan& plan, const StopCondition& stop);
 
-/// Makes the plan in `state` safe, with full effort, and explains the robots that stay: make_safe() and
-/// explain().
-PartialPlan make_partial_plan(PlanState& state, const std::vector<std::size_t>& unsolved,
-                              const std::vector<std::size_t>& given_up, const StopCondition& stop,
-                              ProgressReport& progress);
-
 }  // namespace fleetplan::core

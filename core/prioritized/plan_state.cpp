@@ -42,7 +42,7 @@ SearchResult PlanState::plan(std::size_t robot, const SearchLimits& limits, cons
   return search(robot, with_test, stop);
 }
 
-SearchResult PlanState::plan_ignoring(const std::vector<std::size_t>& ignored, std::size_t robot,
+SearchResult PlanState::plan_ignoring(std::size_t robot, const std::vector<std::size_t>& ignored,
                                       const SearchLimits& limits, const StopCondition& stop) {
   ways_.forget_if_closed_by(ignored, robot);
   for (const std::size_t other : ignored) reservations_.ignore(other, true);

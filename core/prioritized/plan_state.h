@@ -33,7 +33,7 @@ class PlanState {
   /// Plans a robot that has a goal and no reservation. Afterwards all reservations are as they were.
   SearchResult plan(std::size_t robot, const SearchLimits& limits, const StopCondition& stop);
   /// Plans a robot as plan() does, without the reservations of the robots of `ignored`.
-  SearchResult plan_ignoring(const std::vector<std::size_t>& ignored, std::size_t robot,
+  SearchResult plan_ignoring(std::size_t robot, const std::vector<std::size_t>& ignored,
                              const SearchLimits& limits, const StopCondition& stop);
   /// Plans a robot as plan() does, but does not ask during the search whether robots that stay close it off:
   /// for callers that change what searches meet of the others.

@@ -308,19 +308,19 @@ class Repair {
     });
     const auto all = planned_robots([](std::size_t) { return true; });
     if (!lower.empty()) {
-      SearchResult result = state_.plan_ignoring(lower, robot, quick_search_of(robot), stop_);
+      SearchResult result = state_.plan_ignoring(robot, lower, quick_search_of(robot), stop_);
       if (!has_failed(robot, result)) return result;
     }
     rank_[robot] = --highest_rank_;
     if (lower_or_smaller.size() > lower.size() && lower_or_smaller.size() < all.size()) {
-      SearchResult result = state_.plan_ignoring(lower_or_smaller, robot, quick_search_of(robot), stop_);
+      SearchResult result = state_.plan_ignoring(robot, lower_or_smaller, quick_search_of(robot), stop_);
       if (!has_failed(robot, result)) return result;
     }
     // A delay gives the others time to get out of its way.
     const double delay = random_start_delay(state_.instance(), order_, random_);
-    SearchResult result = state_.plan_ignoring(all, robot, {.start_delay = delay}, stop_);
+    SearchResult result = state_.plan_ignoring(robot, all, {.start_delay = delay}, stop_);
     if (!has_failed(robot, result)) return result;
-    return state_.plan_ignoring(all, robot, {}, stop_);
+    return state_.plan_ignoring(robot, all, {}, stop_);
   }
 
   /// Returns the robots with a trajectory that satisfy the condition and may give way, by order.

@@ -163,14 +163,14 @@ class ReservationTable::FixedDistance {
     }
     double distance = pair_radius_ + other.pair_radius - kSearchSlack;
     if (terminal_ != Terminal::none) {
-      distance = contacts_->distance(robot_, terminal_, other.robot, other.terminal, distance);
+      distance = contacts_->distance(robot_, terminal_, other.index, other.terminal, distance);
     }
     if (!stays_) return distance;
     distance = std::min(distance, radius_ + other.radius - kContactTolerance);
     const FixedReservations::Robot& mine = fixed_.robot(robot_);
     const bool is_at_start = mine.start == mine.committed_end && radius_ == mine.radius_at_start;
     if (!other.from_start || !is_at_start) return distance;
-    const Position& their_start = fixed_.robot(other.robot).start;
+    const Position& their_start = fixed_.robot(other.index).start;
     return std::min(distance, (mine.start - their_start).norm() - 2.0 * kSamePosition);
   }
 
@@ -347,7 +347,7 @@ std::vector<std::size_t> ReservationTable::robots_certainly_hit(
     fixed_->visit(robot, mine, index_->disk(robot).pair_radius, margin,
                   [&](const FixedReservations::Occupant& other) {
                     if (!other.is_obstacle && meet(mine, other.disk, fixed_distance(other), margin))
-                      hit.push_back(other.robot);
+                      hit.push_back(other.index);
                     return true;
                   });
   }
@@ -358,23 +358,6 @@ std::vector<std::size_t> ReservationTable::robots_certainly_hit(
 double ReservationTable::margin_of(std::size_t robot, const TimedSegment& segment) const {
   const bool stays = segment.path.from == segment.path.to && segment.t_start <= commitment_end(robot);
   return stays ? 0.0 : margin_;
-}
-
-std::vector<std::size_t> ReservationTable::obstacles_hit(std::size_t robot,
-                                                         const std::vector<SizedSegment>& segments) const {
-  std::vector<std::size_t> hit;
-  if (fixed_ == nullptr) return hit;
-  for (const SizedSegment& segment : segments) {
-    const MovingDisk mine(segment);
-    const FixedDistance fixed_distance(*this, {robot, segment.radius}, segment.path);
-    fixed_->visit(robot, mine, index_->disk(robot).pair_radius, 0.0,
-                  [&](const FixedReservations::Occupant& other) {
-                    if (other.is_obstacle && collide(mine, other.disk, fixed_distance(other)))
-                      hit.push_back(other.obstacle);
-                    return true;
-                  });
-  }
-  return ascending(std::move(hit));
 }
 
 }  // namespace fleetplan::core

@@ -62,8 +62,6 @@ class ReservationTable {
   /// ascending.
   std::vector<std::size_t> robots_certainly_hit(std::size_t robot,
                                                 const std::vector<SizedSegment>& segments) const;
-  /// The obstacles that these segments of `robot` meet, ascending.
-  std::vector<std::size_t> obstacles_hit(std::size_t robot, const std::vector<SizedSegment>& segments) const;
 
  private:
   class DelayedMove;

@@ -15,6 +15,7 @@
 #include "core/model/trajectory.h"
 #include "core/reservation/reservation_table.h"
 #include "tests/core/support/disks.h"
+#include "tests/core/support/obstacles_hit.h"
 #include "tests/support/random_problem.h"
 
 namespace fleetplan::core {
@@ -224,7 +225,7 @@ TEST_P(RandomFixed, ObstaclesHitAreThoseThatAreMet) {
   for (int k = 0; k < 40; ++k) {
     SCOPED_TRACE(testing::Message() << "seed " << GetParam() << ", trajectory " << k);
     const auto segments = timed_segments(random_trajectory(place(), 0.0));
-    const auto hit = table->obstacles_hit(0, sized(segments, kRadius));
+    const auto hit = obstacles_hit(*fixed, 0, sized(segments, kRadius));
     for (std::size_t i = 0; i < obstacle_count; ++i) {
       bool meets = false;
       for (const TimedSegment& mine : segments) {

@@ -7,6 +7,7 @@
 #include "core/model/trajectory.h"
 #include "core/reservation/reservation_table.h"
 #include "tests/core/support/disks.h"
+#include "tests/core/support/obstacles_hit.h"
 #include "tests/core/support/planning.h"
 
 namespace fleetplan::core {
@@ -121,9 +122,9 @@ TEST(FixedReservations, MovesWaitForObstaclesAndRobots) {
 TEST(FixedReservations, ObstaclesAreNotRobotsHit) {
   const Scene scene({idle({5, 5})}, {obstacle({{0, {10, 0.5}}, {19, {10, 19.5}}}), obstacle({{3, {5, 5}}})});
   EXPECT_TRUE(scene.table.robots_hit(0, stand({5, 5})).empty());
-  EXPECT_EQ(scene.table.obstacles_hit(0, stand({5, 5})), Indices{1});
-  EXPECT_EQ(scene.table.obstacles_hit(0, drive({2, 10}, {18, 10}, 2.0, 18.0)), Indices{0});
-  EXPECT_TRUE(scene.table.obstacles_hit(0, drive({2, 10}, {18, 10}, 5.0, 21.0)).empty());
+  EXPECT_EQ(obstacles_hit(scene.fixed, 0, stand({5, 5})), Indices{1});
+  EXPECT_EQ(obstacles_hit(scene.fixed, 0, drive({2, 10}, {18, 10}, 2.0, 18.0)), Indices{0});
+  EXPECT_TRUE(obstacles_hit(scene.fixed, 0, drive({2, 10}, {18, 10}, 5.0, 21.0)).empty());
 }
 
 TEST(FixedReservations, InflationIsNotForObstacles) {

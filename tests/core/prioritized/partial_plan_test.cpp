@@ -21,6 +21,12 @@ OccupancyGrid hall() {
                              "#####.#"});
 }
 
+/// Makes the plan in `state` safe, with full effort, and explains the robots that stay.
+PartialPlan make_partial_plan(PlanState& state, const Robots& unsolved, const Robots& given_up,
+                              const StopCondition& stop, ProgressReport& progress) {
+  return explain(state, make_safe(state, unsolved, given_up, Effort::full, stop, progress), stop);
+}
+
 Robots robots_of(const PartialPlan& partial) {
   Robots robots;
   for (const Unplanned& robot : partial.unplanned) robots.push_back(robot.robot);

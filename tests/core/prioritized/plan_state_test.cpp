@@ -50,7 +50,7 @@ TEST(PlanState, NeverIgnoresCommittedMotion) {
                                  ".........",  //
                                  "####.####"}),
              {robot_at(0.5, 1.5).to(8.5, 1.5), robot_at(4.5, 2.5).to(4.5, 2.5).waits(2.0).drives(4.5, 0.5)});
-  const SearchResult result = p.state.plan_ignoring({1}, 0, {}, p.never);
+  const SearchResult result = p.state.plan_ignoring(0, {1}, {}, p.never);
   ASSERT_TRUE(result.trajectory);
   EXPECT_NEAR(result.trajectory->cost, 8.0 + 0.8 * std::sqrt(2.0), 1e-6) << "it lets robot 1 pass";
 }
@@ -63,7 +63,7 @@ TEST(PlanState, FindsAWayPastAnIgnoredRobotThatIsKnownToCloseIt) {
   p.reservations.stay_in_place(1);
   ASSERT_TRUE(p.state.ways().is_closed_off(0, 1000, p.never));
   EXPECT_FALSE(p.state.plan(0, {}, p.never).trajectory);
-  const auto found = p.state.plan_ignoring({1}, 0, {}, p.never).trajectory;
+  const auto found = p.state.plan_ignoring(0, {1}, {}, p.never).trajectory;
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->cost, 8.0, 1e-12);
   EXPECT_FALSE(p.state.plan(0, {}, p.never).trajectory);
@@ -82,7 +82,7 @@ TEST(PlanState, FindsAWholeWayPastAnIgnoredRobotThatClosesIt) {
   Planning p(std::move(grid), std::move(robots), options);
   for (std::size_t other = 1; other < p.instance.size(); ++other) p.reservations.stay_in_place(other);
   p.state.set_whole_way_of(0);
-  const auto found = p.state.plan_ignoring({1}, 0, {}, p.never).trajectory;
+  const auto found = p.state.plan_ignoring(0, {1}, {}, p.never).trajectory;
   EXPECT_GT(p.state.expansions(), SearchLimits::kFirstTest);
   ASSERT_TRUE(found);
   EXPECT_GT(found->cost, 56.0) << "around the row";
