@@ -2,11 +2,8 @@
 
 // Which poses robots take whose goals may be served at one of several ones.
 
-#include <cstddef>
-#include <functional>
 #include <memory>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "core/map/static_map.h"
@@ -17,17 +14,9 @@
 #include "core/model/surroundings.h"
 #include "core/runtime/executor.h"
 #include "core/runtime/stop_condition.h"
+#include "core/travel/pose_choice.h"
 
 namespace fleetplan::core {
-
-/// By robot, ascending by goal.
-using OpenGoals = std::vector<std::vector<OpenGoal>>;
-
-/// A robot and one of its open goals, as an index into its list.
-struct OpenPlace {
-  std::size_t robot = 0;
-  std::size_t open = 0;
-};
 
 /// Leaves out the poses at which the disk of the robot overlaps an obstacle or a blocked zone. A goal that
 /// would have none keeps them all, and is returned. Poses at which a goal would be put off, because of a zone
