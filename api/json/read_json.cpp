@@ -310,7 +310,7 @@ JsonError error_of(const Builder& builder, std::string_view body, int max_depth)
   }
   if (builder.too_many()) {
     return {JsonError::Kind::too_large,
-            "The JSON holds more than " + std::to_string(kMostValues) +
+            std::string("The JSON holds more than ") + std::to_string(kMostValues) +
                 " values, which no request needs; send a large map as an image, best as a PNG."};
   }
   return {JsonError::Kind::malformed, explain_malformed(body, builder.error_position())};
