@@ -5,7 +5,7 @@
 //
 // A run ends when no robot can go on, which its policy decides:
 // - `open_loop`, `absorb_waits`: when each robot has executed all of its actions (`execute_alone` in
-//   execute_alone.cpp).
+//   execution_policy.cpp).
 // - `dependencies`: when no robot is ready to go on and no event of a drive is left
 //   (`DependentExecution::run` in execute_dependencies.cpp). A robot that still has actions then waits for
 //   ever and has not arrived: a deadlock.
