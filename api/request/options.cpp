@@ -101,8 +101,8 @@ constexpr std::array<OptionRow, 21> kTable{{
     {"any_angle", "Any angle", "", BooleanOption{&PlanOptions::any_angle},
      "Allows straight moves between any two cells in line of sight, not only between neighbours."},
     {"connectivity", "Connectivity", "", CountOption{kConnectivities, &PlanOptions::connectivity},
-     "Number of neighbours of a cell. With `any_angle`, later improvement of `anytime` may have twice as "
-     "many."},
+     "Number of neighbours of a cell. With `any_angle`, later improvement of `anytime` may have more, up to "
+     "32."},
     {"max_iterations", "Improvement steps", "", BoundOption{kMostIterations, &PlanOptions::max_iterations},
      "Bounds `anytime` by a number of improvement steps instead of the clock."},
     {"replan", "Previous plans", "", one_of<&PlanOptions::replan>(kReplans),
