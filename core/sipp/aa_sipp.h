@@ -27,13 +27,13 @@ class NoPathTest {
 /// The parameters of the search for one robot: limits of cost and effort, and the accepted suboptimality.
 struct SearchLimits {
   double bound = kForever;        // seconds; only trajectories that cost less are accepted
-  double heuristic_weight = 1.2;  // >= 1; weight of h in f = g + weight * h (weighted A*; Pohl, 1970)
+  double heuristic_weight = 1.1;  // >= 1; weight of h in f = g + weight * h (weighted A*; Pohl, 1970)
   double suboptimality = 0.01;    // accepts a path to the goal that costs at most (1 + this) * the smallest f
   double suboptimality_growth = 1e-4;  // added to `suboptimality` with every expansion
   /// An arrival also counts as dominated, whatever its heading, if it is later than another one in the same
   /// safe interval, or earlier by less than the time to translate by this many lattice spacings. 0: exact
   /// dominance.
-  double dominance_slack = 0.5;
+  double dominance_slack = 0.2;
   /// Seconds: a path may also end from this time on wherever the robot may rest for good, at the estimated
   /// cost of its static way from there. kForever: only at the goal.
   double horizon = kForever;
