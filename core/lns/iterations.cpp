@@ -137,7 +137,8 @@ namespace {
 
 /// A delay below this is rounding, weighted seconds.
 constexpr double kLeastDelay = 1e-9;
-/// The limits of a search that finds a cheaper path if any of the searches can.
+/// The limits of a search that finds the cheapest path that the searches can find, but for what dominance
+/// and estimates lose.
 constexpr SearchLimits kProof{
     .heuristic_weight = 1.0, .suboptimality = 0.0, .suboptimality_growth = 0.0, .dominance_slack = 0.0};
 /// The effort for tests whether a robot can become cheaper: expansions at first, and as a share of those of
@@ -178,8 +179,13 @@ std::optional<Exhaustion::Test> Exhaustion::next_test(std::int64_t expansions) {
     const std::size_t robot = planned[next_to_test_++ % planned.size()];
     if (!may_gain(robot)) continue;
     is_testing_ = true;
-    Test test{robot, incumbent_.version(robot), moves_, kProof};
-    test.limits.bound = incumbent_.cost_with_share(robot, incumbent_.share(robot) - kLeastDelay);
+    Test test;
+    test.robot = robot;
+    test.version = incumbent_.version(robot);
+    test.moves = moves_;
+    test.bound = incumbent_.cost_with_share(robot, incumbent_.share(robot) - kLeastDelay);
+    // Without a bound: the search discards by estimates, which may be too high.
+    test.limits = kProof;
     test.limits.max_expansions = most;
     return test;
   }
@@ -193,7 +199,8 @@ void Exhaustion::run(Test& test, PlanState& state, const StopCondition& stop) co
 void Exhaustion::learn(const Test& test) {
   is_testing_ = false;
   expansions_ += test.result.expansions;
-  const bool is_proof = !test.result.trajectory && test.result.complete && test.moves == moves_;
+  const bool is_cheaper = test.result.trajectory && test.result.trajectory->cost < test.bound;
+  const bool is_proof = !is_cheaper && test.result.complete && test.moves == moves_;
   if (is_proof) cheapest_[test.robot] = test.version;
 }
 
@@ -245,7 +252,7 @@ double Iterations::most_loss() const {
   const auto count = static_cast<double>(incumbent_.planned().size());
   double delays = 0.0;
   for (const std::size_t robot : incumbent_.planned()) delays += exhaustion_.delay(robot);
-  return kMostLossShare * delays / count * std::exp2(straying_ / count);
+  return kMostLossShare * delays / count * std::exp2(static_cast<double>(straying_) / count);
 }
 
 std::size_t Iterations::choose_delayed() {
@@ -269,7 +276,7 @@ bool Iterations::accept(Iteration& iteration, Workspace& workspace) {
   if (is_best) {
     vain_ = straying_ = 0;
   } else if (!for_makespan_) {
-    return_to_best_in_time();
+    stray();
   }
   return is_best;
 }
@@ -283,12 +290,18 @@ bool Iterations::adopt(Iteration& iteration, Workspace& workspace) {
   return best_.changed(change->gain);
 }
 
-/// Small changes that gain do not lead out of every plan, so the search strays farther and farther.
-void Iterations::return_to_best_in_time() {
-  const auto robots = static_cast<int>(incumbent_.planned().size());
-  if (vain_ <= kPatience * robots || ++straying_ < kDoublings * robots) return;
-  best_.restore();
+/// Small changes that gain do not lead out of every plan, so the search strays farther and farther, until it
+/// returns to the best plan.
+void Iterations::stray() {
+  const auto robots = static_cast<std::int64_t>(incumbent_.planned().size());
+  if (vain_ > kPatience * robots && ++straying_ == kDoublings * robots) return_to_best();
+}
+
+bool Iterations::return_to_best() {
   straying_ = 0;
+  if (best_.differences().empty()) return false;
+  best_.restore();
+  return true;
 }
 
 void Iterations::learn(const Iteration& iteration) {

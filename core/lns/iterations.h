@@ -98,6 +98,7 @@ class Exhaustion {
     std::size_t robot = 0;
     std::int64_t version = 0;  // version of the robot's trajectory
     int moves = 0;             // how often robots have got more moves
+    double bound = kForever;   // seconds; a trajectory that costs as much is no cheaper
     SearchLimits limits;
     SearchResult result{std::nullopt, false, 0};
   };
@@ -170,10 +171,13 @@ class Iterations {
   /// thread.
   void run(Iteration& iteration, Workspace& workspace) const;
   /// Learns from the result and makes its change to the incumbent, unless changes made since choose()
-  /// conflict with it. Returns whether the incumbent is the best plan so far. The workspace may be updated.
+  /// conflict with it. Returns whether the incumbent is better than any plan before. After many iterations
+  /// without that, it becomes the best plan again. The workspace may be updated.
   bool accept(Iteration& iteration, Workspace& workspace);
-  /// Iterations since the incumbent has been the best plan so far.
-  int vain() const { return vain_; }
+  /// Makes the best plan the incumbent. Returns false if it is already.
+  bool return_to_best();
+  /// Iterations since a better plan than any before was found.
+  std::int64_t vain() const { return vain_; }
 
   BestPlan& best() { return best_; }
 
@@ -182,7 +186,7 @@ class Iterations {
   std::size_t choose_delayed();
   void learn(const Iteration& iteration);
   bool adopt(Iteration& iteration, Workspace& workspace);
-  void return_to_best_in_time();
+  void stray();
   bool is_outdated(const Iteration& iteration, Workspace& workspace) const;
 
   Incumbent& incumbent_;
@@ -194,8 +198,8 @@ class Iterations {
   BestPlan best_;
   AdaptiveParameters parameters_;
   DelayedChoice first_robots_;
-  int vain_ = 0;
-  int straying_ = 0;  // iterations with more and more loss
+  std::int64_t vain_ = 0;
+  std::int64_t straying_ = 0;  // iterations with more and more loss
 };
 
 }  // namespace fleetplan::core

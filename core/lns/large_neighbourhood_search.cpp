@@ -77,6 +77,13 @@ class LargeNeighbourhoodSearch {
 
  private:
   void improve(const BeforeRound& before_round) {
+    do {
+      run_rounds(before_round);
+      complete_all();  // which may lead to something to try again
+    } while (iterations_left_ > 0 && !result_.exhausted && !result_.cut_off);
+  }
+
+  void run_rounds(const BeforeRound& before_round) {
     result_.exhausted = is_exhausted();
     while (iterations_left_ > 0 && !result_.exhausted && !result_.cut_off) {
       if (before_round && !stop_.met()) {
@@ -88,13 +95,18 @@ class LargeNeighbourhoodSearch {
       result_.exhausted = is_exhausted();
       result_.cut_off = !result_.exhausted && (!may_improve_ || stop_.met() || !has_memory());
     }
-    complete_all();
   }
 
   /// Whether nothing is left to try, with more neighbours of vertices either.
   bool is_exhausted() {
-    if (exhaustion_.nothing_left() && exhaustion_.has_proofs()) add_moves();
-    return exhaustion_.nothing_left();
+    if (nothing_left() && exhaustion_.has_proofs()) add_moves();
+    return nothing_left();
+  }
+
+  /// Whether nothing is left to try from the best plan, to which the search returns first if it has strayed.
+  bool nothing_left() {
+    if (!exhaustion_.nothing_left()) return false;
+    return !iterations_.return_to_best() || exhaustion_.nothing_left();
   }
 
   /// The steps of the next round, at most so many. A round ends where vertices get more neighbours, so that
@@ -149,8 +161,7 @@ class LargeNeighbourhoodSearch {
   }
 
   std::optional<Step> next_step(Workspace& workspace) {
-    if (iterations_left_ == 0 || exhaustion_.nothing_left() || stop_.met() ||
-        memory_shortages() != shortages_) {
+    if (iterations_left_ == 0 || nothing_left() || stop_.met() || memory_shortages() != shortages_) {
       is_over_ = true;
     }
     if (is_over_) return std::nullopt;
@@ -190,7 +201,7 @@ class LargeNeighbourhoodSearch {
       workspace->invalidate();
     }
     workspaces_.give_back(std::move(workspace));
-    result_.exhausted = exhaustion_.nothing_left();
+    result_.exhausted = nothing_left();
     result_.cut_off = result_.cut_off && !result_.exhausted;
   }
 

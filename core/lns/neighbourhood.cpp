@@ -121,6 +121,9 @@ namespace {
 
 /// A gain below this is rounding, weighted seconds.
 constexpr double kLeastGain = 1e-9;
+/// Estimates of the cost to go may be too high by this share, about: a search that accepts no suboptimality
+/// discards by them only what exceeds its bound by so much.
+constexpr double kEstimateError = 0.1;
 
 class NeighbourhoodPlanning {
  public:
@@ -184,7 +187,10 @@ class NeighbourhoodPlanning {
 
   SearchResult search(const std::vector<std::size_t>& ignored, std::size_t robot,
                       const SearchLimits& limits) {
-    SearchResult result = state_.plan_ignoring(robot, ignored, limits, stop_);
+    SearchLimits loose = limits;
+    if (limits.suboptimality == 0.0) loose.bound *= 1.0 + kEstimateError;
+    SearchResult result = state_.plan_ignoring(robot, ignored, loose, stop_);
+    if (result.trajectory && result.trajectory->cost >= limits.bound) result.trajectory.reset();
     ++searches_;
     expansions_ += result.expansions;
     return result;

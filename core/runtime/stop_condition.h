@@ -23,7 +23,7 @@ class EarlyEnd {
   EarlyEnd& operator=(const EarlyEnd&) = delete;
   virtual ~EarlyEnd() = default;
 
-  /// Called whenever a condition is asked; returns whether it is met.
+  /// Called whenever a condition is asked, by any of the job's threads; returns whether it is met.
   virtual bool met(bool outlasts) = 0;
   virtual bool is_over(bool outlasts) const = 0;
 };

@@ -18,7 +18,7 @@ namespace TEST_FILE {
 
 constexpr int kRuns = 400;
 /// Later improvement has up to 32 neighbours of a vertex, travel times those of the request.
-constexpr int kMostSlower = kRuns / 40;
+constexpr int kMostSlower = kRuns / 25;
 constexpr double kRounding = 1e-6;  // seconds
 
 PlanOptions options_for(support::Dice& dice) {

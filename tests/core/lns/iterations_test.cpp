@@ -160,7 +160,7 @@ TEST(Iterations, ReturnToTheBestPlanAfterTheyHaveStrayed) {
   p.in_vain(1);
   EXPECT_EQ(p.incumbent.cost(0), LateRobots::row(2.5, 10.0).cost) << "as at first";
   EXPECT_DOUBLE_EQ(p.most_loss(), least);
-  EXPECT_EQ(p.iterations.vain(), 24) << "it counts from the best plan on";
+  EXPECT_EQ(p.iterations.vain(), 24) << "since the best plan was found";
   p.in_vain(2);
   EXPECT_DOUBLE_EQ(p.most_loss(), 2.0 * least) << "they stray again at once";
 }

@@ -10,6 +10,7 @@
 #include "core/prioritized/triage.h"
 #include "tests/core/support/planning.h"
 #include "tests/support/random_problem.h"
+#include "tests/support/step_limit.h"
 
 namespace fleetplan::core {
 namespace TEST_FILE {
@@ -154,6 +155,34 @@ TEST(LargeNeighbourhoodSearch, EndsWhenEveryRobotIsAtItsLowerBound) {
       large_neighbourhood_search(p.state, movers, bounds_of(p), p.random, p.callers_thread, p.never);
   EXPECT_EQ(result.improvements, 0);
   EXPECT_FALSE(result.cut_off);
+}
+
+/// Small fleets often come to a plan in which nobody has a cheaper way, and stray from one in which some do.
+TEST(LargeNeighbourhoodSearch, EndsEarlyOnlyIfNoRobotOfTheBestPlanHasACheaperWay) {
+  int exhausted = 0;
+  for (std::uint64_t seed = 0; seed < 80; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    support::Dice dice(seed);
+    PlanOptions options;
+    options.seed = seed;
+    options.connectivity = 32;  // estimates as good from the beginning
+    Planning p(support::random_problem(dice, 3), options);
+    const auto movers = plan_first_solution(p);
+    support::StepLimit limit(5'000);
+    const LnsResult result = large_neighbourhood_search(p.state, movers, bounds_of(p), p.random,
+                                                        p.callers_thread, support::counted(limit));
+    ASSERT_TRUE(result.exhausted || result.cut_off);
+    if (!result.exhausted) continue;
+    ++exhausted;
+    for (const std::size_t robot : movers) {
+      if (!p.reservations.trajectory(robot)) continue;
+      const double cost = p.reservations.trajectory(robot)->cost;
+      const SearchResult alone = p.state.plan_ignoring(robot, movers, kExact, p.never);
+      ASSERT_TRUE(alone.trajectory) << robot;
+      ASSERT_GE(alone.trajectory->cost, cost - 1e-6) << robot;
+    }
+  }
+  EXPECT_GT(exhausted, 20);
 }
 
 TEST(LargeNeighbourhoodSearch, EndsAtOnceWithoutTrajectories) {
