@@ -70,7 +70,7 @@ class LargeNeighbourhoodSearch {
       result_.cut_off = true;
     }
     if (is_short_of_memory()) workspaces_.release_others();
-    iterations_.best().restore();
+    iterations_.return_to_best();
     workspaces_.update_callers_state({});
     return result_;
   }

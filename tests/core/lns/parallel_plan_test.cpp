@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "core/planner.h"
@@ -40,6 +41,17 @@ PlanOptions anytime(std::int64_t iterations, Objective objective = Objective::fl
   return options;
 }
 
+void expect_same_plan_on_threads(const Problem& problem, const PlanOptions& options) {
+  support::ThreadedExecutor executor(4);
+  support::Recorder recorder;
+  const Plan together = plan(problem, options, StopCondition::never(), executor);
+  const std::string text = support::exact_text(together);
+  EXPECT_EQ(text, support::exact_text(plan(problem, options, StopCondition::never())));
+  EXPECT_EQ(text, support::exact_text(plan(problem, options, StopCondition::never(), executor, &recorder)))
+      << "with an observer";
+  support::expect_safe(problem, together);
+}
+
 TEST(CallerThread, RunsEveryTaskOnceInOrder) {
   std::vector<std::size_t> ran;
   CallerThread().run(3, [&](std::size_t k) { ran.push_back(k); });
@@ -69,10 +81,7 @@ TEST_P(PlanInParallel, ReturnsTheSamePlanForRandomFleets) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     support::Dice dice(seed);
     const Problem problem = support::random_problem(dice, 10);
-    const PlanOptions options = anytime(120, GetParam());
-    support::ThreadedExecutor executor(4);
-    ASSERT_EQ(support::exact_text(plan(problem, options, StopCondition::never(), executor)),
-              support::exact_text(plan(problem, options, StopCondition::never())));
+    expect_same_plan_on_threads(problem, anytime(120, GetParam()));
   }
 }
 
@@ -82,12 +91,7 @@ TEST_P(PlanInParallel, ReturnsTheSamePlanForSmallFleetsAfterManyIterations) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     support::Dice dice(seed);
     const Problem problem = support::random_problem(dice, 5);
-    const PlanOptions options = anytime(400, GetParam());
-    support::ThreadedExecutor executor(4);
-    const Plan together = plan(problem, options, StopCondition::never(), executor);
-    ASSERT_EQ(support::exact_text(together),
-              support::exact_text(plan(problem, options, StopCondition::never())));
-    support::expect_safe(problem, together);
+    expect_same_plan_on_threads(problem, anytime(400, GetParam()));
   }
 }
 
