@@ -27,8 +27,11 @@ struct Contacts::Point {
   bool grows = false;
 };
 
-Contacts::Contacts(std::vector<Terminals> robots)
-    : robots_(std::move(robots)), contacts_(robots_.size()), too_many_(robots_.size(), false) {
+Contacts::Contacts(std::vector<Terminals> robots, bool with_margin)
+    : robots_(std::move(robots)),
+      with_margin_(with_margin),
+      contacts_(robots_.size()),
+      too_many_(robots_.size(), false) {
   std::vector<Point> points;
   double largest = 0.0;
   for (std::size_t i = 0; i < robots_.size(); ++i) {
@@ -71,11 +74,12 @@ void Contacts::compare(const Point& a, const Point& b) {
   const double kept = distance * (1.0 - kRounding);
   if (kept >= sum - kSearchSlack) return;
   if (a.terminal == Terminal::start && b.terminal == Terminal::start) {
-    const double bare = sum - a.inflation - b.inflation;
-    const bool overlapping = distance < bare - kContactTolerance - 4.0 * kSamePosition;
+    constexpr double kContact = kContactTolerance + 4.0 * kSamePosition;
+    const bool overlapping = distance < sum - a.inflation - b.inflation - kContact;
     if (overlapping && (a.grows || b.grows)) return;
-    add(a.robot, {b.robot, kept, kForever, overlapping});
-    add(b.robot, {a.robot, kept, kForever, overlapping});
+    const bool in_turn = overlapping || (with_margin_ && distance < sum - kContact);
+    add(a.robot, {b.robot, kept, kForever, in_turn});
+    add(b.robot, {a.robot, kept, kForever, in_turn});
   } else if (distance >= sum - kContactTolerance - 4.0 * kSamePosition) {
     add(a.robot, {b.robot, kForever, kept, false});
     add(b.robot, {a.robot, kForever, kept, false});
@@ -90,7 +94,7 @@ void Contacts::add(std::size_t robot, const Contact& contact) {
   if (known != all.end()) {
     known->leaving = std::min(known->leaving, contact.leaving);
     known->touching = std::min(known->touching, contact.touching);
-    known->overlapping = known->overlapping || contact.overlapping;
+    known->in_turn = known->in_turn || contact.in_turn;
   } else if (all.size() < kMaxContacts) {
     all.push_back(contact);
   } else {
@@ -133,9 +137,9 @@ double Contacts::deficit(std::size_t robot) const {
   return deficit;
 }
 
-bool Contacts::overlaps_at_start(std::size_t robot) const {
+bool Contacts::leaves_in_turn(std::size_t robot) const {
   return too_many_[robot] || std::any_of(contacts_[robot].begin(), contacts_[robot].end(),
-                                         [](const Contact& contact) { return contact.overlapping; });
+                                         [](const Contact& contact) { return contact.in_turn; });
 }
 
 Terminal Contacts::terminal(std::size_t robot, const Segment& path, double radius, bool has_left) const {
@@ -143,7 +147,7 @@ Terminal Contacts::terminal(std::size_t robot, const Segment& path, double radiu
   const Terminals& ends = robots_[robot];
   if (!has_left && radius == ends.radius_at_start && is_same_position(path.from, ends.start)) {
     const bool moves = path.from != path.to;
-    return moves && overlaps_at_start(robot) ? Terminal::leaving : Terminal::start;
+    return moves && leaves_in_turn(robot) ? Terminal::leaving : Terminal::start;
   }
   const bool at_goal = ends.goal && radius == ends.radius_at_goal && is_same_position(path.to, *ends.goal);
   return at_goal ? Terminal::goal : Terminal::none;
@@ -154,7 +158,7 @@ double Contacts::distance(std::size_t robot, Terminal at, std::size_t other, Ter
   if (at == Terminal::none || other_at == Terminal::none) return full;
   const Contact* contact = find(robot, other);
   if (contact == nullptr) return full;
-  if (at == Terminal::leaving && other_at == Terminal::leaving && contact->overlapping) return full;
+  if (at == Terminal::leaving && other_at == Terminal::leaving && contact->in_turn) return full;
   const bool leaving = is_at_start(at) && is_at_start(other_at);
   return std::min(full, leaving ? contact->leaving : contact->touching);
 }

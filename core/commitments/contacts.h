@@ -31,7 +31,7 @@ struct Terminals {
 };
 
 /// Where a robot stands, or moves from or to.
-/// `leaving`: moves from the start, and is one of two robots whose bare disks overlap there.
+/// `leaving`: moves from the start, and is one of two robots that leave one after the other.
 enum class Terminal : std::uint8_t { none, goal, start, leaving };
 
 class Contacts {
@@ -39,7 +39,9 @@ class Contacts {
   /// More are not listed; a robot that has more cannot leave its start.
   static constexpr std::size_t kMaxContacts = 64;
 
-  explicit Contacts(std::vector<Terminals> robots);
+  /// `with_margin`: whether robots keep an interval margin (PlanOptions). Then those that start too near to
+  /// each other leave one after the other.
+  explicit Contacts(std::vector<Terminals> robots, bool with_margin = false);
 
   /// Whether no two robots are in contact.
   bool empty() const;
@@ -65,18 +67,20 @@ class Contacts {
     std::size_t other = 0;
     double leaving = kForever;   // metres; the distance to keep while both are at their starts
     double touching = kForever;  // metres; the distance to keep where at least one of them is at its goal
-    /// The bare disks overlap at the starts, by more than contact. They leave one after the other: once they
-    /// have been clear of each other, they come no nearer again.
-    bool overlapping = false;
+    /// They leave one after the other: once they have been clear of each other, they come no nearer again.
+    /// The bare disks overlap at the starts, or with an interval margin those that are kept apart, by more
+    /// than contact.
+    bool in_turn = false;
   };
   struct Point;
 
-  bool overlaps_at_start(std::size_t robot) const;
+  bool leaves_in_turn(std::size_t robot) const;
   void compare(const Point& a, const Point& b);
   void add(std::size_t robot, const Contact& contact);
   const Contact* find(std::size_t robot, std::size_t other) const;
 
   std::vector<Terminals> robots_;
+  bool with_margin_;
   std::vector<std::vector<Contact>> contacts_;  // by robot
   std::vector<bool> too_many_;                  // by robot
 };

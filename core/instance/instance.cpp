@@ -109,7 +109,7 @@ Instance::Instance(const Problem& problem, const PlanOptions& options,
       lattices_(lattices_of(problem, options)),
       itineraries_(itineraries_of(problem)),
       stages_(stages_of_robots(problem, options, itineraries_, lattices_, stop)),
-      contacts_(terminals(*this)),
+      contacts_(terminals(*this), options.interval_margin > 0.0),
       fixed_reservations_(std::move(fixed_reservations)) {}
 
 namespace {
