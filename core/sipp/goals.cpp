@@ -7,6 +7,7 @@
 
 #include "core/geometry/position.h"
 #include "core/geometry/tolerance.h"
+#include "core/sipp/moves.h"
 
 namespace fleetplan::core {
 namespace {
@@ -167,6 +168,15 @@ namespace {
 /// Seconds: rounding of what is left of a way. A move gains far more.
 constexpr double kNoGain = 1e-6;
 
+/// Whether a move goes on at the speed of the one before.
+bool goes_on(const TimedMove& before, const TimedMove& move, const MoveTimes& times) {
+  constexpr double kSameSpeed = 1e-9;  // relative; far above rounding
+  if (!times.have_parts()) return true;
+  if (move.profile) return false;
+  const double speed = before.path.length() / before.duration();
+  return std::abs(speed - times.linear_speed(move.path.at(0.5))) <= kSameSpeed * speed;
+}
+
 /// Makes the trajectory of a path of labels: the moves between them, the visits to the goals and the cost.
 class PathToTrajectory {
  public:
@@ -178,7 +188,6 @@ class PathToTrajectory {
  private:
   std::vector<LabelId> path_to(LabelId last) const;
   void append_move(const Label& from, const Label& to);
-  void append_pieces(const std::vector<DriveZones::Piece>& pieces, const Label& to, bool continues);
   void append_service(const Label& from, const Label& to);
   void stop_at_rest(const Label& first, const Label& last);
   double time_left(const Label& label) const;
@@ -222,42 +231,21 @@ std::vector<LabelId> PathToTrajectory::path_to(LabelId last) const {
   return path;
 }
 
-/// A move that continues straight without a stop is joined to the one before.
+/// A move that continues straight without a stop, at the same speed, is joined to the one before.
 void PathToTrajectory::append_move(const Label& from, const Label& to) {
   const bool continues = from.by_translation && to.departure == from.arrival && from.reverse == to.reverse &&
                          angle_between(from.heading, to.heading) <= kSameHeading;
   const Segment way{state_.places[from.place].position, state_.places[to.place].position};
   const MoveTimes& times = goals_.stage(state_.places[to.place].stage).vertices->times();
-  if (times.limit_speeds() || times.motion().linear_inertia.is_limited) {
-    append_pieces(times.pieces(way), to, continues);
-  } else if (continues) {
-    trajectory_.moves.back().path.to = way.to;
-    trajectory_.moves.back().t_end = to.arrival;
-  } else {
-    trajectory_.moves.push_back({{way, to.departure, to.arrival}, {}, to.reverse});
+  std::vector<TimedMove> moves = timed_moves(times, way, to.departure, to.arrival, to.reverse);
+  moves.front().continues = continues;
+  auto first = moves.begin();
+  if (continues && goes_on(trajectory_.moves.back(), *first, times)) {
+    trajectory_.moves.back().path.to = first->path.to;
+    trajectory_.moves.back().t_end = first->t_end;
+    ++first;
   }
-}
-
-/// Appends the pieces of the move to a label. If the first one continues the last move at the same speed, it
-/// is joined to that.
-void PathToTrajectory::append_pieces(const std::vector<DriveZones::Piece>& pieces, const Label& to,
-                                     bool continues) {
-  constexpr double kSameSpeed = 1e-9;  // relative; far above rounding
-  for (const DriveZones::Piece& piece : pieces) {
-    const double t_end = &piece == &pieces.back() ? to.arrival : to.departure + piece.end;
-    const bool is_first = &piece == &pieces.front();
-    if (is_first && continues && !piece.profile) {
-      TimedMove& last = trajectory_.moves.back();
-      const double speed = last.path.length() / last.duration();
-      if (std::abs(speed - piece.linear_speed) <= kSameSpeed * speed) {
-        last.path.to = piece.path.to;
-        last.t_end = t_end;
-        continue;
-      }
-    }
-    const TimedSegment segment{piece.path, to.departure + piece.begin, t_end};
-    trajectory_.moves.push_back({segment, piece.profile, to.reverse, continues || !is_first});
-  }
+  trajectory_.moves.insert(trajectory_.moves.end(), first, moves.end());
 }
 
 void PathToTrajectory::append_service(const Label& from, const Label& to) {

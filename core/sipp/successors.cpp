@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/geometry/tolerance.h"
-#include "core/model/drive_zones.h"
+#include "core/sipp/moves.h"
 
 namespace fleetplan::core {
 namespace {
@@ -33,7 +33,6 @@ Successors::Successors(const ReservationTable& table, SearchSpace& space, const 
       vertices_(space.vertices()),
       changes_load_(space.changes_load()),
       fastest_(greatest_speed(space)),
-      has_parts_(changes_load_ || vertices_.times().limit_speeds() || motion_.linear_inertia.is_limited),
       may_continue_(motion_.wait_before_move > 0.0 && !motion_.linear_inertia.is_limited) {}
 
 PlaceId Successors::place_of(int vertex, int stage) {
@@ -280,54 +279,10 @@ std::optional<double> Successors::earliest_departure(const OpenEntry& entry,
   return departure(stage, path, move.duration, begin, latest);
 }
 
-namespace {
-
-/// The parts of a move in which its acceleration is constant, in seconds from its departure.
-std::vector<TimedSegment> parts_of(const std::vector<DriveZones::Piece>& pieces) {
-  std::vector<TimedSegment> parts;
-  // Bounded: the pieces of one move, and at most three phases of each.
-  for (const DriveZones::Piece& piece : pieces) {
-    const TimedSegment move{piece.path, piece.begin, piece.end};
-    if (!piece.profile) {
-      parts.push_back(move);
-      continue;
-    }
-    for (const TimedSegment& phase : phases(move, *piece.profile)) parts.push_back(phase);
-  }
-  return parts;
-}
-
-}  // namespace
-
 std::optional<double> Successors::departure(int stage, const Segment& path, double duration, double t_min,
                                             double t_max) const {
-  const Footprint& footprint = goals_.stage(stage).footprint;
-  if (has_parts_) {
-    const std::vector<TimedSegment> parts = parts_of(vertices(stage).times().pieces(path));
-    if (parts.size() > 1 || parts.front().ramp != 0.0) return departure_of(parts, t_min, t_max, footprint);
-  }
-  return table_.earliest_departure(footprint, path, duration, t_min, t_max);
-}
-
-/// The earliest departure of a move of several parts, which follow each other without a stop.
-std::optional<double> Successors::departure_of(const std::vector<TimedSegment>& parts, double t_min,
-                                               double t_max, const Footprint& footprint) const {
-  double t = t_min;
-  for (std::size_t k = 0; k < parts.size();) {
-    const auto& [path, begin, end, ramp] = parts[k];
-    const auto earliest =
-        table_.earliest_departure(footprint, path, end - begin, t + begin, t_max + begin, ramp);
-    if (!earliest) return std::nullopt;
-    if (*earliest <= t + begin) {
-      ++k;
-      continue;
-    }
-    // Later: then the pieces before it may meet others.
-    t = std::max(*earliest - begin, std::nextafter(t, kForever));
-    if (t > t_max) return std::nullopt;
-    k = 0;
-  }
-  return t;
+  return fleetplan::core::earliest_departure(table_, goals_.stage(stage).footprint, vertices(stage).times(),
+                                             path, duration, t_min, t_max);
 }
 
 }  // namespace fleetplan::core

@@ -79,8 +79,6 @@ class Successors {
 
   std::optional<double> departure(int stage, const Segment& path, double duration, double t_min,
                                   double t_max) const;
-  std::optional<double> departure_of(const std::vector<TimedSegment>& parts, double t_min, double t_max,
-                                     const Footprint& footprint) const;
 
   const ReservationTable& table_;
   SearchSpace& space_;
@@ -91,7 +89,6 @@ class Successors {
   const Vertices& vertices_;  // of the first stage
   const bool changes_load_;
   const double fastest_;     // metres per second, in any stage
-  const bool has_parts_;     // whether moves may have parts of different speeds
   const bool may_continue_;  // whether a move may go on from the one before without the added wait
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// One robot's view of the static map, while it carries one load: where it may stop, which straight moves it
-// may make, and how long they take.
+// One robot's view of the static map, while it carries one load: where it may stop, and which straight moves
+// it may make.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,63 +16,11 @@
 #include "core/model/motion.h"
 #include "core/model/robot.h"
 #include "core/runtime/stop_condition.h"
+#include "core/sipp/moves.h"
 
 namespace fleetplan::core {
 
 class Instance;
-
-/// How long straight moves and rotations take, by the motion of the robot and the zones that limit how it
-/// drives.
-class MoveTimes {
- public:
-  /// `zones`: null if there are none. Both outlive this object.
-  MoveTimes(const Motion& motion, const DriveZones* zones)
-      : motion_(motion),
-        slowest_motion_(motion),
-        zones_(zones != nullptr && zones->limit_speeds() ? zones : nullptr) {
-    if (zones_ != nullptr) slowest_motion_.angular_speed = zones_->least_angular_speed();
-  }
-
-  const Motion& motion() const { return motion_; }
-  /// The motion with the least angular speed of all zones.
-  const Motion& slowest_motion() const { return slowest_motion_; }
-  /// Whether the robot has to be slower in some places.
-  bool limit_speeds() const { return zones_ != nullptr; }
-
-  /// Seconds of a straight move of this length, from rest to rest. `path` returns its Segment, which only
-  /// zones ask for.
-  template <class Path>
-  double translation_time(double length, const Path& path) const {
-    if (!limit_speeds()) return motion_.translation_time(length);
-    const Segment& segment = path();
-    return zones_->translation_time(segment.from, segment.to);
-  }
-  /// Seconds to turn at a position.
-  double rotation_time(const Position& position, double from, double to) const {
-    if (!limit_speeds()) return motion_.rotation_time(from, to);
-    return motion_.angular_inertia.time(angle_between(from, to), zones_->angular_speed_at(position));
-  }
-  /// The greatest linear speed at a position, metres per second.
-  double linear_speed(const Position& position) const {
-    return limit_speeds() ? zones_->linear_speed_at(position) : motion_.linear_speed;
-  }
-
-  /// The pieces of a straight move from rest to rest, seconds from its beginning: between the borders of
-  /// speed zones.
-  std::vector<DriveZones::Piece> pieces(const Segment& path) const {
-    if (limit_speeds()) return zones_->pieces(path.from, path.to);
-    DriveZones::Piece piece{path, motion_.linear_speed, 0.0, motion_.translation_time(path.length())};
-    if (motion_.linear_inertia.is_limited) {
-      piece.profile = fastest_profile(path.length(), motion_.linear_speed, motion_.linear_inertia);
-    }
-    return {piece};
-  }
-
- private:
-  const Motion& motion_;
-  Motion slowest_motion_;
-  const DriveZones* zones_;  // null if they limit no speeds
-};
 
 /// One robot's start and goals where they lie off its lattice (refined for its radius), numbered after the
 /// vertices of that, which they are linked to: to all in sight within two spacings. A start or goal that is

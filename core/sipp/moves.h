@@ -1,0 +1,84 @@
+#pragma once
+
+// Straight moves and rotations as a robot drives them, with its inertia and in speed zones: how long they
+// take, and when they can depart.
+
+#include <optional>
+#include <vector>
+
+#include "core/geometry/position.h"
+#include "core/geometry/segment.h"
+#include "core/geometry/speed_profile.h"
+#include "core/model/drive_zones.h"
+#include "core/model/motion.h"
+#include "core/model/trajectory.h"
+#include "core/reservation/reservation_table.h"
+
+namespace fleetplan::core {
+
+/// How long straight moves and rotations take, by the motion of the robot and the zones that limit how it
+/// drives.
+class MoveTimes {
+ public:
+  /// `zones`: null if there are none. Both outlive this object.
+  MoveTimes(const Motion& motion, const DriveZones* zones)
+      : motion_(motion),
+        slowest_motion_(motion),
+        zones_(zones != nullptr && zones->limit_speeds() ? zones : nullptr) {
+    if (zones_ != nullptr) slowest_motion_.angular_speed = zones_->least_angular_speed();
+  }
+
+  const Motion& motion() const { return motion_; }
+  /// The motion with the least angular speed of all zones.
+  const Motion& slowest_motion() const { return slowest_motion_; }
+  /// Whether the robot has to be slower in some places.
+  bool limit_speeds() const { return zones_ != nullptr; }
+  /// Whether the speed may change during a straight move.
+  bool have_parts() const { return limit_speeds() || motion_.linear_inertia.is_limited; }
+
+  /// Seconds of a straight move of this length, from rest to rest. `path` returns its Segment, which only
+  /// zones ask for.
+  template <class Path>
+  double translation_time(double length, const Path& path) const {
+    if (!limit_speeds()) return motion_.translation_time(length);
+    const Segment& segment = path();
+    return zones_->translation_time(segment.from, segment.to);
+  }
+  /// Seconds to turn at a position.
+  double rotation_time(const Position& position, double from, double to) const {
+    if (!limit_speeds()) return motion_.rotation_time(from, to);
+    return motion_.angular_inertia.time(angle_between(from, to), zones_->angular_speed_at(position));
+  }
+  /// The greatest linear speed at a position, metres per second.
+  double linear_speed(const Position& position) const {
+    return limit_speeds() ? zones_->linear_speed_at(position) : motion_.linear_speed;
+  }
+
+  /// The pieces of a straight move from rest to rest, seconds from its beginning: between the borders of
+  /// speed zones.
+  std::vector<DriveZones::Piece> pieces(const Segment& path) const {
+    if (limit_speeds()) return zones_->pieces(path.from, path.to);
+    DriveZones::Piece piece{path, motion_.linear_speed, 0.0, motion_.translation_time(path.length())};
+    if (motion_.linear_inertia.is_limited) {
+      piece.profile = fastest_profile(path.length(), motion_.linear_speed, motion_.linear_inertia);
+    }
+    return {piece};
+  }
+
+ private:
+  const Motion& motion_;
+  Motion slowest_motion_;
+  const DriveZones* zones_;  // null if they limit no speeds
+};
+
+/// The earliest departure in [t_min, t_max] of a straight move of `duration` seconds (> 0), see
+/// ReservationTable::earliest_departure(); its speed may change on the way.
+std::optional<double> earliest_departure(const ReservationTable& table, const Footprint& footprint,
+                                         const MoveTimes& times, const Segment& way, double duration,
+                                         double t_min, double t_max);
+
+/// A straight move from rest to rest, as its parts of different speeds; each continues the one before.
+std::vector<TimedMove> timed_moves(const MoveTimes& times, const Segment& way, double departure,
+                                   double arrival, bool reverse);
+
+}  // namespace fleetplan::core
