@@ -14,6 +14,7 @@
 #include "core/commitments/unavoidable_collisions.h"
 #include "core/instance/instance.h"
 #include "core/lns/large_neighbourhood_search.h"
+#include "core/lns/smoothing.h"
 #include "core/prioritized/collect_plan.h"
 #include "core/prioritized/plan_state.h"
 #include "core/prioritized/prioritized_planning.h"
@@ -299,6 +300,7 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
   }
   std::erase_if(movers, [&](std::size_t robot) { return !state.reservations().trajectory(robot); });
   bool cut_off = undo_vain_moves(state, stop);
+  cut_off = smooth_briefly(state, movers, random, stop) || cut_off;
   unplanned = with_zones_named(problem, options, std::move(unplanned), stop);
   const UnavoidableCollisions found =
       find_unavoidable(state.reservations(), unplanned, beyond_budget(stop, kMostForUnavoidable));

@@ -21,7 +21,7 @@ inline constexpr const char* kMemorySpent =
 /// 0. Previous plans that hold are kept; the robots that they leave out are planned around them.
 /// 1. Triage: finds the robots that cannot move whatever the others do.
 /// 2. Prioritized planning: a first plan, or a safe partial plan. Robots that make way (Robot::yields) do not
-///    move in vain: moves that the others do not need are undone.
+///    move in vain: moves that the others do not need are undone. New paths are smoothed.
 /// 3. Unavoidable collisions: finds those with committed motion and obstacles that no plan prevents.
 /// 4. Lower bounds of the cost of each robot alone on the map.
 /// 5. Large neighbourhood search, in mode `anytime`: improves the plan until the stop condition is met. Then

@@ -152,6 +152,7 @@ core::PlanOptions options_of(const Options& options, bool in_motion) {
   made.inflation = options.inflation;
   made.wait_before_move = options.wait_before_move;
   made.any_angle = options.any_angle;
+  made.smoothing = options.smoothing;
   made.connectivity = options.connectivity;
   made.replan = static_cast<core::PlanOptions::Replan>(options.replan);
   made.interval_margin = options.interval_margin;

@@ -71,7 +71,7 @@ constexpr WordOption one_of_invalid_robots() {
           }};
 }
 
-constexpr std::array<OptionRow, 21> kTable{{
+constexpr std::array<OptionRow, 22> kTable{{
     {"time_budget_ms", "Time budget", "ms", ServiceOption{kBudget, &ParsedOptions::budget_ms, 5000.0},
      "Milliseconds for the whole answer, counted from the last byte received. `GET /v1/limits` returns the "
      "default (`default_budget_ms`) and the maximum (`max_budget_ms`); a larger value is clamped, with a "
@@ -100,6 +100,10 @@ constexpr std::array<OptionRow, 21> kTable{{
      "Seconds that a robot stands still before every translation, already turned."},
     {"any_angle", "Any angle", "", BooleanOption{&PlanOptions::any_angle},
      "Allows straight moves between any two cells in line of sight, not only between neighbours."},
+    {"smoothing", "Smoothing", "", BooleanOption{&PlanOptions::smoothing},
+     "Lets robots stop between the points of the lattice where that makes paths shorter: with `any_angle` "
+     "and "
+     "without a `horizon`. `false`: besides starts and goals, they stop at its points alone."},
     {"connectivity", "Connectivity", "", CountOption{kConnectivities, &PlanOptions::connectivity},
      "Number of neighbours of a cell. With `any_angle`, later improvement of `anytime` may have more, up to "
      "32."},

@@ -11,6 +11,7 @@
 
 #include "core/instance/instance.h"
 #include "core/lns/neighbourhood.h"
+#include "core/lns/smoothing.h"
 #include "core/model/plan_options.h"
 #include "core/model/trajectory.h"
 #include "core/prioritized/plan_state.h"
@@ -26,6 +27,8 @@ class Incumbent {
   /// may be replaced.
   Incumbent(const PlanState& state, std::vector<std::size_t> planned);
 
+  /// Whether the paths of robots may be smoothed.
+  bool may_smooth() const { return core::may_smooth(instance_.options()); }
   /// The number of robots, with and without a trajectory.
   std::size_t robot_count() const { return trajectories_.size(); }
   const std::vector<std::size_t>& planned() const { return planned_; }

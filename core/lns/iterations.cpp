@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/lns/smoothing.h"
+
 namespace fleetplan::core {
 namespace {
 
@@ -105,17 +107,18 @@ constexpr std::array<SearchLimits, 3> kLimits{{
      .thorough = false,
      .max_expansions = 40'000},
 }};
-/// The effort of a search before its first expansion, in expansions.
-constexpr double kSearchEffort = 20.0;
 
 }  // namespace
 
-std::size_t AdaptiveParameters::Choice::robots() const { return kSizes[size]; }
+std::size_t AdaptiveParameters::Choice::robots() const { return search_limits() ? kSizes[size] : 1; }
 
-const SearchLimits& AdaptiveParameters::Choice::search_limits() const { return kLimits[limits]; }
+std::optional<SearchLimits> AdaptiveParameters::Choice::search_limits() const {
+  if (limits == kLimits.size()) return std::nullopt;
+  return kLimits[limits];
+}
 
-AdaptiveParameters::AdaptiveParameters()
-    : kinds_(kNeighbourhoods), sizes_(kSizes.size()), limits_(kLimits.size()) {}
+AdaptiveParameters::AdaptiveParameters(bool may_smooth)
+    : kinds_(kNeighbourhoods), sizes_(kSizes.size()), limits_(kLimits.size() + (may_smooth ? 1 : 0)) {}
 
 AdaptiveParameters::Choice AdaptiveParameters::choose(Random& random) const {
   Choice choice;
@@ -125,12 +128,11 @@ AdaptiveParameters::Choice AdaptiveParameters::choose(Random& random) const {
   return choice;
 }
 
-void AdaptiveParameters::learn(const Choice& choice, double gain, std::int64_t searches,
-                               std::int64_t expansions) {
-  const double effort = static_cast<double>(expansions) + kSearchEffort * static_cast<double>(searches);
+void AdaptiveParameters::learn(const Choice& choice, double gain, double effort) {
+  limits_.learn(choice.limits, gain, effort);
+  if (!choice.search_limits()) return;  // the others had no effect
   kinds_.learn(choice.kind, gain, effort);
   sizes_.learn(choice.size, gain, effort);
-  limits_.learn(choice.limits, gain, effort);
 }
 
 namespace {
@@ -141,6 +143,10 @@ constexpr double kLeastDelay = 1e-9;
 /// and estimates lose.
 constexpr SearchLimits kProof{
     .heuristic_weight = 1.0, .suboptimality = 0.0, .suboptimality_growth = 0.0, .dominance_slack = 0.0};
+/// The tries to smooth the path that such a search finds, and the path that the robot has; and seconds: what
+/// they gain, if anything.
+constexpr int kTriesOfProof = 1000;
+constexpr double kLeastSmoothed = 1e-4;
 /// The effort for tests whether a robot can become cheaper: expansions at first, and as a share of those of
 /// the search.
 constexpr std::int64_t kFirstProofExpansions = 1'000;
@@ -171,8 +177,8 @@ bool Exhaustion::at_lower_bound() const {
   return incumbent_.makespan() <= bound + kLeastDelay;
 }
 
-std::optional<Exhaustion::Test> Exhaustion::next_test(std::int64_t expansions) {
-  const std::int64_t most = kFirstProofExpansions + expansions / kProofShare - expansions_;
+std::optional<Exhaustion::Test> Exhaustion::next_test(std::int64_t effort) {
+  const std::int64_t most = kFirstProofExpansions + effort / kProofShare - expansions_;
   if (is_testing_ || most <= 0) return std::nullopt;
   const std::vector<std::size_t>& planned = incumbent_.planned();
   for (std::size_t k = 0; k < planned.size(); ++k) {
@@ -187,19 +193,34 @@ std::optional<Exhaustion::Test> Exhaustion::next_test(std::int64_t expansions) {
     // Without a bound: the search discards by estimates, which may be too high.
     test.limits = kProof;
     test.limits.max_expansions = most;
+    test.seed = ++tests_;
     return test;
   }
   return std::nullopt;
 }
 
 void Exhaustion::run(Test& test, PlanState& state, const StopCondition& stop) const {
-  test.result = state.plan_ignoring(test.robot, incumbent_.planned(), test.limits, stop);
+  SearchResult result = state.plan_ignoring(test.robot, incumbent_.planned(), test.limits, stop);
+  if (result.trajectory && incumbent_.may_smooth()) {
+    const IgnoredRobots absent(state.reservations(), incumbent_.planned());
+    Random random(test.seed);
+    Trajectory now = *state.reservations().trajectory(test.robot);
+    for (Trajectory* path : {&*result.trajectory, &now}) {
+      Smoothed smoothed = smooth(state, test.robot, *path, kTriesOfProof, random, stop);
+      result.expansions += smoothed.timed;
+      if (smoothed.trajectory) *path = std::move(*smoothed.trajectory);
+    }
+    if (now.cost < result.trajectory->cost) result.trajectory = std::move(now);
+    if (stop.met()) result.complete = false;
+  }
+  test.result = std::move(result);
 }
 
 void Exhaustion::learn(const Test& test) {
   is_testing_ = false;
   expansions_ += test.result.expansions;
-  const bool is_cheaper = test.result.trajectory && test.result.trajectory->cost < test.bound;
+  const double least_gain = incumbent_.may_smooth() ? kLeastSmoothed : 0.0;
+  const bool is_cheaper = test.result.trajectory && test.result.trajectory->cost < test.bound - least_gain;
   const bool is_proof = !is_cheaper && test.result.complete && test.moves == moves_;
   if (is_proof) cheapest_[test.robot] = test.version;
 }
@@ -220,6 +241,9 @@ namespace {
 /// search fails. Small gains count too, so one iteration in kIterationsPerAnyGain accepts any gain.
 constexpr double kMinGainShare = 0.15;
 constexpr std::size_t kIterationsPerAnyGain = 4;
+/// The same of a path that is only smoothed, until searches have been in vain: each change of the plan takes
+/// time, as it is made on all threads.
+constexpr double kMinGainShareOfSmoothing = 0.03;
 /// A change may make the flowtime longer by this share of the mean delay of the robots, which leads out of
 /// local optima (threshold accepting; Dueck and Scheuer, 1990).
 constexpr double kMostLossShare = 0.2;
@@ -237,15 +261,22 @@ Iteration Iterations::choose() {
   iteration.options.min_gain_share = random_.below(kIterationsPerAnyGain) == 0 ? 0.0 : kMinGainShare;
   iteration.options.limits = iteration.parameters.search_limits();
   iteration.seed = random_.seed();
+  const bool searches = iteration.options.limits.has_value();
+  if (!searches) iteration.options.min_gain_share = is_in_vain() ? 0.0 : kMinGainShareOfSmoothing;
+  if (!for_makespan_) iteration.options.most_loss = most_loss();
   if (for_makespan_) iteration.options.cost_limit = incumbent_.makespan();
   if (for_makespan_ && random_.below(2) == 0) {
     iteration.options.gain = NeighbourhoodOptions::Gain::first;
     iteration.first = incumbent_.last_to_arrive();
   } else {
-    iteration.first = choose_delayed();
+    iteration.first = choose_delayed(searches ? first_robots_ : smoothed_robots_);
   }
-  if (!for_makespan_) iteration.options.most_loss = most_loss();
   return iteration;
+}
+
+/// Whether as many iterations as there are robots have brought no better plan.
+bool Iterations::is_in_vain() const {
+  return vain_ >= static_cast<std::int64_t>(incumbent_.planned().size());
 }
 
 double Iterations::most_loss() const {
@@ -255,11 +286,11 @@ double Iterations::most_loss() const {
   return kMostLossShare * delays / count * std::exp2(static_cast<double>(straying_) / count);
 }
 
-std::size_t Iterations::choose_delayed() {
+std::size_t Iterations::choose_delayed(const DelayedChoice& choice) {
   std::vector<double> delays;
   delays.reserve(incumbent_.planned().size());
   for (const std::size_t robot : incumbent_.planned()) delays.push_back(exhaustion_.delay(robot));
-  return first_robots_.choose(incumbent_.planned(), delays, random_);
+  return choice.choose(incumbent_.planned(), delays, random_);
 }
 
 void Iterations::run(Iteration& iteration, Workspace& workspace) const {
@@ -267,10 +298,11 @@ void Iterations::run(Iteration& iteration, Workspace& workspace) const {
   const AdaptiveParameters::Choice& parameters = iteration.parameters;
   const auto robots = workspace.neighbourhoods().select(iteration.first, parameters.neighbourhood(),
                                                         parameters.robots(), random);
-  iteration.result = plan_neighbourhood(workspace.state(), robots, bounds_, iteration.options, stop_);
+  iteration.result = plan_neighbourhood(workspace.state(), robots, bounds_, iteration.options, random, stop_);
 }
 
 bool Iterations::accept(Iteration& iteration, Workspace& workspace) {
+  if (!iteration.options.limits) return adopt(iteration, workspace);
   ++vain_;
   const bool is_best = adopt(iteration, workspace);
   if (is_best) {
@@ -286,7 +318,10 @@ bool Iterations::adopt(Iteration& iteration, Workspace& workspace) {
   const bool adopted = change && !is_outdated(iteration, workspace);
   learn(iteration);
   if (!adopted) return false;
-  for (Change::Part& part : change->parts) best_.replace(part.robot, std::move(part.trajectory));
+  for (Change::Part& part : change->parts) {
+    if (iteration.options.limits) smoothed_robots_.forget(part.robot);
+    best_.replace(part.robot, std::move(part.trajectory));
+  }
   return best_.changed(change->gain);
 }
 
@@ -307,8 +342,9 @@ bool Iterations::return_to_best() {
 void Iterations::learn(const Iteration& iteration) {
   const NeighbourhoodResult& result = iteration.result;
   const double gain = result.change ? std::max(0.0, result.change->gain) : 0.0;
-  parameters_.learn(iteration.parameters, gain, result.searches, result.expansions);
-  first_robots_.learn(iteration.first, result.change.has_value());
+  parameters_.learn(iteration.parameters, gain, result.effort);
+  DelayedChoice& robots = iteration.options.limits ? first_robots_ : smoothed_robots_;
+  robots.learn(iteration.first, result.change.has_value());
 }
 
 /// Whether the change is no longer acceptable, as other trajectories have been replaced since.

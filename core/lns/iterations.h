@@ -56,6 +56,8 @@ class DelayedChoice {
 
   /// Records whether an iteration made the robot cheaper.
   void learn(std::size_t robot, bool gained);
+  /// Forgets the failures of a robot: it has a new trajectory.
+  void forget(std::size_t robot) { failures_[robot] = 0.0; }
 
  private:
   std::vector<double> failures_;  // by robot; failures before a gain count less
@@ -73,15 +75,16 @@ class AdaptiveParameters {
 
     Neighbourhood neighbourhood() const { return static_cast<Neighbourhood>(kind); }
     std::size_t robots() const;
-    const SearchLimits& search_limits() const;
+    /// Of the searches; none if a robot is smoothed only.
+    std::optional<SearchLimits> search_limits() const;
   };
 
-  AdaptiveParameters();
+  /// `may_smooth`: whether robots may be smoothed only.
+  explicit AdaptiveParameters(bool may_smooth);
 
   Choice choose(Random& random) const;
-  /// Records the result of an iteration: `gain` in seconds, >= 0, and the searches and expansions that it
-  /// took.
-  void learn(const Choice& choice, double gain, std::int64_t searches, std::int64_t expansions);
+  /// Records the result of an iteration: `gain` in seconds, >= 0, and its effort, > 0.
+  void learn(const Choice& choice, double gain, double effort);
 
  private:
   AdaptiveChoice kinds_;
@@ -93,13 +96,15 @@ class AdaptiveParameters {
 /// trajectory.
 class Exhaustion {
  public:
-  /// A search for a cheaper trajectory of a delayed robot, as if no other planned robot were there.
+  /// A search for a cheaper trajectory of a delayed robot, as if no other planned robot were there; what it
+  /// finds, and what the robot has, are smoothed as well.
   struct Test {
     std::size_t robot = 0;
     std::int64_t version = 0;  // version of the robot's trajectory
     int moves = 0;             // how often robots have got more moves
     double bound = kForever;   // seconds; a trajectory that costs as much is no cheaper
     SearchLimits limits;
+    std::uint64_t seed = 0;  // of the smoothing
     SearchResult result{std::nullopt, false, 0};
   };
 
@@ -116,8 +121,8 @@ class Exhaustion {
   bool nothing_left() const;
 
   /// Returns the next test; none if no robot needs one, while one runs, or if the tests have had their share
-  /// of the effort. `expansions`: the expansions of the search so far.
-  std::optional<Test> next_test(std::int64_t expansions);
+  /// of the effort. `effort`: of the search so far, in expansions.
+  std::optional<Test> next_test(std::int64_t effort);
   void run(Test& test, PlanState& state, const StopCondition& stop) const;
   void learn(const Test& test);
   /// Whether a robot is known to have no cheaper trajectory.
@@ -137,7 +142,8 @@ class Exhaustion {
   std::size_t next_to_test_ = 0;                       // position in planned()
   bool is_testing_ = false;
   int moves_ = 0;                // how often robots have got more moves
-  std::int64_t expansions_ = 0;  // expansions of the tests
+  std::int64_t expansions_ = 0;  // expansions of the tests, and paths that they timed
+  std::uint64_t tests_ = 0;
 };
 
 /// An iteration of large neighbourhood search: what it tries, and the result.
@@ -163,7 +169,9 @@ class Iterations {
         stop_(stop),
         for_makespan_(for_makespan),
         best_(incumbent),
-        first_robots_(incumbent.robot_count()) {}
+        parameters_(incumbent.may_smooth()),
+        first_robots_(incumbent.robot_count()),
+        smoothed_robots_(incumbent.robot_count()) {}
 
   /// Chooses what to try next, by recent success.
   Iteration choose();
@@ -176,14 +184,15 @@ class Iterations {
   bool accept(Iteration& iteration, Workspace& workspace);
   /// Makes the best plan the incumbent. Returns false if it is already.
   bool return_to_best();
-  /// Iterations since a better plan than any before was found.
+  /// Iterations with a search since one of them found a better plan than any before.
   std::int64_t vain() const { return vain_; }
 
   BestPlan& best() { return best_; }
 
  private:
+  bool is_in_vain() const;
   double most_loss() const;
-  std::size_t choose_delayed();
+  std::size_t choose_delayed(const DelayedChoice& choice);
   void learn(const Iteration& iteration);
   bool adopt(Iteration& iteration, Workspace& workspace);
   void stray();
@@ -198,6 +207,7 @@ class Iterations {
   BestPlan best_;
   AdaptiveParameters parameters_;
   DelayedChoice first_robots_;
+  DelayedChoice smoothed_robots_;
   std::int64_t vain_ = 0;
   std::int64_t straying_ = 0;  // iterations with more and more loss
 };

@@ -28,8 +28,8 @@ constexpr std::size_t kMaxThreads = 4;
 /// Steps of a round with a report before it, and without: at its end, threads wait for each other.
 constexpr std::size_t kReportedRound = 32;
 constexpr std::size_t kRound = 1024;
-/// Steps for each robot before vertices get more neighbours (WorkspacePool::add_moves), and twice as many
-/// before they get more again: first, as many improvements as possible count, later, good ones.
+/// Steps with a search for each robot before vertices get more neighbours (WorkspacePool::add_moves), and
+/// twice as many before they get more again: first, as many improvements as possible count, later, good ones.
 constexpr std::size_t kStepsPerRobot = 8;
 /// Iterations without an improvement after which it is tested whether one is possible.
 constexpr int kVainIterations = 32;
@@ -167,11 +167,14 @@ class LargeNeighbourhoodSearch {
     if (is_over_) return std::nullopt;
     workspace.update();
     Step step;
-    if (iterations_.vain() >= kVainIterations) step.test = exhaustion_.next_test(result_.expansions);
-    if (steps_before_more_moves_ > 0) --steps_before_more_moves_;
-    if (step.test) return step;
-    --iterations_left_;
-    step.iteration = iterations_.choose();
+    if (iterations_.vain() >= kVainIterations)
+      step.test = exhaustion_.next_test(static_cast<std::int64_t>(effort_));
+    if (!step.test) {
+      --iterations_left_;
+      step.iteration = iterations_.choose();
+    }
+    const bool searches = step.test || step.iteration.options.limits;
+    if (searches && steps_before_more_moves_ > 0) --steps_before_more_moves_;
     return step;
   }
 
@@ -187,6 +190,7 @@ class LargeNeighbourhoodSearch {
     if (step.test) return exhaustion_.learn(*step.test);
     if (iterations_.accept(step.iteration, workspace)) ++result_.improvements;
     result_.expansions += step.iteration.result.expansions;
+    effort_ += step.iteration.result.effort;
   }
 
   void complete_all() {
@@ -226,6 +230,7 @@ class LargeNeighbourhoodSearch {
   const StopCondition& stop_;
   std::int64_t iterations_left_ = 0;
   LnsResult result_;
+  double effort_ = 0.0;                // of the iterations, in expansions
   std::atomic<bool> is_over_ = false;  // the round is over
   bool may_improve_ = true;            // the last answer of the executor
   bool may_help_ = true;               // threads of the executor may help

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/lns/smoothing.h"
 #include "core/model/objective_share.h"
 
 namespace fleetplan::core {
@@ -124,26 +125,36 @@ constexpr double kLeastGain = 1e-9;
 /// Estimates of the cost to go may be too high by this share, about: a search that accepts no suboptimality
 /// discards by them only what exceeds its bound by so much.
 constexpr double kEstimateError = 0.1;
+/// The effort of a search before its first expansion, and of smoothing a path: at first, and for each path
+/// that is timed; in expansions.
+constexpr double kSearchEffort = 20.0;
+constexpr double kSmoothingEffort = 20.0;
+constexpr double kTimedEffort = 1.0;
+/// By how much of its cost a path is expected to be smoothed at most.
+constexpr double kMostSmoothed = 0.1;
+/// The tries to smooth each robot.
+constexpr int kTries = 100;
 
 class NeighbourhoodPlanning {
  public:
   NeighbourhoodPlanning(PlanState& state, const std::vector<std::size_t>& robots,
-                        const TautPathBounds& bounds, const NeighbourhoodOptions& options,
+                        const TautPathBounds& bounds, const NeighbourhoodOptions& options, Random& random,
                         const StopCondition& stop)
       : state_(state),
         instance_(state.instance()),
         objective_(instance_.options().objective),
         bounds_(bounds),
         options_(options),
+        random_(random),
         stop_(stop),
         unplanned_(robots),
         queue_{robots.front()} {}
 
   NeighbourhoodResult run() {
-    const bool accepted = plan_queue();
+    const bool accepted = options_.limits ? plan_queue() : smooth_first();
     for (const Change::Part& part : before_) state_.reservations().remove(part.robot);
     for (Change::Part& part : before_) state_.reservations().follow(part.robot, std::move(part.trajectory));
-    NeighbourhoodResult result{std::nullopt, searches_, expansions_};
+    NeighbourhoodResult result{std::nullopt, expansions_, effort_ + static_cast<double>(expansions_)};
     if (accepted) result.change = std::move(change_);
     return result;
   }
@@ -172,9 +183,25 @@ class NeighbourhoodPlanning {
     return change_.gain > kLeastGain - options_.most_loss;
   }
 
+  bool smooth_first() {
+    const std::size_t robot = queue_.front();
+    Trajectory trajectory = *state_.reservations().trajectory(robot);
+    smooth_path(robot, trajectory);
+    change_.gain = share(robot) - share(robot, trajectory);
+    change_.parts.push_back({robot, std::move(trajectory)});
+    return change_.gain > least_gain(robot);
+  }
+
+  void smooth_path(std::size_t robot, Trajectory& trajectory) {
+    if (!may_smooth(instance_.options())) return;
+    Smoothed smoothed = smooth(state_, robot, trajectory, kTries, random_, stop_);
+    effort_ += kSmoothingEffort + kTimedEffort * static_cast<double>(smoothed.timed);
+    if (smoothed.trajectory) trajectory = std::move(*smoothed.trajectory);
+  }
+
   /// Plans the robot at this position of the queue. At first only the robots in the queue are ignored.
   SearchResult search(std::size_t position) {
-    SearchLimits limits = options_.limits;
+    SearchLimits limits = *options_.limits;
     limits.bound = std::min(options_.cost_limit, cost_bound(position));
     if (position > 0) {
       const auto waiting = queue_.begin() + static_cast<std::ptrdiff_t>(position);
@@ -188,12 +215,23 @@ class NeighbourhoodPlanning {
   SearchResult search(const std::vector<std::size_t>& ignored, std::size_t robot,
                       const SearchLimits& limits) {
     SearchLimits loose = limits;
+    const Trajectory& now = *state_.reservations().trajectory(robot);
+    // What it finds may be smoothed as much.
+    loose.bound += std::min(now.smoothed_by, kMostSmoothed * now.cost);
     if (limits.suboptimality == 0.0) loose.bound *= 1.0 + kEstimateError;
     SearchResult result = state_.plan_ignoring(robot, ignored, loose, stop_);
-    if (result.trajectory && result.trajectory->cost >= limits.bound) result.trajectory.reset();
-    ++searches_;
+    effort_ += kSearchEffort;
     expansions_ += result.expansions;
+    if (!result.trajectory) return result;
+    const IgnoredRobots absent(state_.reservations(), ignored);
+    smooth_path(robot, *result.trajectory);
+    if (result.trajectory->cost >= limits.bound) result.trajectory.reset();
     return result;
+  }
+
+  /// What the first robot has to gain.
+  double least_gain(std::size_t first) const {
+    return std::max(kLeastGain, options_.min_gain_share * (share(first) - least_share(first)));
   }
 
   /// The least cost at which the robot at this position of the queue would make the change unacceptable.
@@ -202,7 +240,7 @@ class NeighbourhoodPlanning {
     const double now = share(robot);
     double most = now;
     if (position == 0) {  // the change is for its sake, so it has to gain itself
-      most = now - std::max(kLeastGain, options_.min_gain_share * (now - least_share(robot)));
+      most = now - least_gain(robot);
     } else {
       if (options_.gain == NeighbourhoodOptions::Gain::first) return kForever;
       double possible_gain = 0.0;  // by the robots that follow in the queue
@@ -234,21 +272,22 @@ class NeighbourhoodPlanning {
   const PlanOptions::Objective objective_;
   const TautPathBounds& bounds_;
   const NeighbourhoodOptions& options_;
+  Random& random_;
   const StopCondition& stop_;
   std::vector<std::size_t> unplanned_;  // robots of the neighbourhood without a new trajectory
   std::vector<std::size_t> queue_;      // robots to plan, and those planned already
   std::vector<Change::Part> before_;    // trajectories that are replaced for now
   Change change_;
-  std::int64_t searches_ = 0;
   std::int64_t expansions_ = 0;
+  double effort_ = 0.0;  // without expansions
 };
 
 }  // namespace
 
 NeighbourhoodResult plan_neighbourhood(PlanState& state, const std::vector<std::size_t>& robots,
                                        const TautPathBounds& bounds, const NeighbourhoodOptions& options,
-                                       const StopCondition& stop) {
-  return NeighbourhoodPlanning(state, robots, bounds, options, stop).run();
+                                       Random& random, const StopCondition& stop) {
+  return NeighbourhoodPlanning(state, robots, bounds, options, random, stop).run();
 }
 
 }  // namespace fleetplan::core

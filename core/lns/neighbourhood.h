@@ -77,22 +77,24 @@ struct NeighbourhoodOptions {
   double most_loss = 0.0;        // weighted seconds, >= 0; by how much the sum may rise
   double cost_limit = kForever;  // seconds; all costs have to be below it
   double min_gain_share = 0.0;   // [0, 1); share of the first robot's delay that it has to gain at least
-  SearchLimits limits;           // limits of every search; the bound follows from the other members
+  /// Limits of every search; the bound follows from the other members. None: the first robot's path is
+  /// smoothed, and nothing else.
+  std::optional<SearchLimits> limits = SearchLimits();
 };
 
 struct NeighbourhoodResult {
   std::optional<Change> change;
-  std::int64_t searches = 0;
   std::int64_t expansions = 0;
+  double effort = 0.0;  // in expansions, of searches and smoothing
 };
 
 /// Plans the robots of a neighbourhood again (Li et al., MAPF-LNS, IJCAI 2021): first robots.front() as if
 /// the others of `robots` were absent, then those of them that conflict with it, and so on. Trajectories that
 /// conflict with further robots of `robots` are accepted only if there is no other. A search ends when no
-/// trajectory can bring the required gain any more. All of `robots` have trajectories and bounds. The state
-/// is left unchanged.
+/// trajectory can bring the required gain any more, smoothed as much as the robot's was: what it finds is
+/// smoothed. All of `robots` have trajectories and bounds. The state is left unchanged.
 NeighbourhoodResult plan_neighbourhood(PlanState& state, const std::vector<std::size_t>& robots,
                                        const TautPathBounds& bounds, const NeighbourhoodOptions& options,
-                                       const StopCondition& stop);
+                                       Random& random, const StopCondition& stop);
 
 }  // namespace fleetplan::core

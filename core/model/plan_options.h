@@ -24,6 +24,9 @@ struct PlanOptions {
   double inflation = 0.0;            // metres added to every radius, >= 0
   double wait_before_move = 0.0;     // seconds, >= 0
   bool any_angle = true;
+  /// Whether the stops of paths leave the lattice where that makes the plan better; with `any_angle`, and
+  /// without a horizon.
+  bool smoothing = true;
   int connectivity = 8;  // 4, 8, 16 or 32
   /// How previous plans that hold are used: the search begins with them, or changes them only where another
   /// robot could not be planned otherwise.

@@ -42,6 +42,7 @@ struct Trajectory {
   /// With `stops_at`: what is left to do, alone on the static map, takes as long there as where the plan
   /// begins.
   bool gains_nothing = false;
+  double smoothed_by = 0.0;  // seconds by which it costs less than the path that a search has found
   bool is_previous = false;  // the motion of Robot::previous: its actions are those received
 
   Position end() const { return moves.empty() ? start : moves.back().path.to; }

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/instance/instance.h"
@@ -80,6 +81,7 @@ class FleetReservations {
     table_.ignore(robot, ignored);
     is_ignored_[robot] = ignored;
   }
+  bool is_ignored(std::size_t robot) const { return is_ignored_[robot]; }
   /// Reserves only what comes before `t` (seconds) of the trajectory that the robot follows.
   void shorten(std::size_t robot, double t);
   /// Undoes shorten().
@@ -100,6 +102,25 @@ class FleetReservations {
   bool is_in_table_ = true;       // what reserved_ has
   std::size_t planned_count_ = 0;
   std::size_t staying_count_ = 0;
+};
+
+/// While it lives, searches and questions about conflicts leave out the reservations of some robots.
+class IgnoredRobots {
+ public:
+  IgnoredRobots(FleetReservations& reservations, std::vector<std::size_t> robots)
+      : reservations_(reservations), robots_(std::move(robots)) {
+    std::erase_if(robots_, [&](std::size_t robot) { return reservations_.is_ignored(robot); });
+    for (const std::size_t robot : robots_) reservations_.ignore(robot, true);
+  }
+  ~IgnoredRobots() {
+    for (const std::size_t robot : robots_) reservations_.ignore(robot, false);
+  }
+  IgnoredRobots(const IgnoredRobots&) = delete;
+  IgnoredRobots& operator=(const IgnoredRobots&) = delete;
+
+ private:
+  FleetReservations& reservations_;
+  std::vector<std::size_t> robots_;  // those that were not left out before
 };
 
 /// The largest disk of each robot at any time, by robot.

@@ -45,10 +45,8 @@ SearchResult PlanState::plan(std::size_t robot, const SearchLimits& limits, cons
 SearchResult PlanState::plan_ignoring(std::size_t robot, const std::vector<std::size_t>& ignored,
                                       const SearchLimits& limits, const StopCondition& stop) {
   ways_.forget_if_closed_by(ignored, robot);
-  for (const std::size_t other : ignored) reservations_.ignore(other, true);
-  SearchResult result = plan(robot, limits, stop);
-  for (const std::size_t other : ignored) reservations_.ignore(other, false);
-  return result;
+  const IgnoredRobots without(reservations_, ignored);
+  return plan(robot, limits, stop);
 }
 
 SearchResult PlanState::search(std::size_t robot, const SearchLimits& limits, const StopCondition& stop) {

@@ -104,13 +104,13 @@ class ReservationTable::DelayedMove {
   bool delay_past(const MovingDisk& other, double distance, double margin) {
     if (margin > 0.0) return delay_past_with_margin(other, distance, margin);
     if (!collide(mine_, other, distance)) return true;
+    const UnsafeInterval hit =
+        forbidden_departures(mine_.from, mine_.velocity, duration_, other, distance, mine_.ramp);
+    if (hit.empty() || is_outside(hit)) return true;
     if (other.t_end == kForever) {  // a later departure meets it as well
       never_ = true;
       return false;
     }
-    const UnsafeInterval hit =
-        forbidden_departures(mine_.from, mine_.velocity, duration_, other, distance, mine_.ramp);
-    if (hit.empty() || hit.end <= mine_.t_start) return true;  // they only touch, up to rounding
     delay_to(hit.end);
     return false;
   }
@@ -119,9 +119,14 @@ class ReservationTable::DelayedMove {
   bool delay_past_with_margin(const MovingDisk& other, double distance, double margin) {
     const UnsafeInterval hit =
         forbidden_departures(mine_.from, mine_.velocity, duration_, other, distance, mine_.ramp);
-    if (hit.empty() || mine_.t_start <= hit.begin - margin || mine_.t_start >= hit.end + margin) return true;
+    if (hit.empty() || is_outside({hit.begin - margin, hit.end + margin})) return true;
     delay_to(hit.end + margin);
     return false;
+  }
+
+  /// Whether they only touch, up to rounding: the other one may have been planned to pass just behind.
+  bool is_outside(const UnsafeInterval& hit) const {
+    return mine_.t_start <= hit.begin + kSameTime || hit.end <= mine_.t_start;
   }
 
   void delay_to(double t) {

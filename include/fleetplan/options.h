@@ -44,6 +44,9 @@ struct Options {
   double wait_before_move = 0.0;
   /// Allows straight moves between any two cells in line of sight, not only between neighbours.
   bool any_angle = true;
+  /// Whether robots may stop between the points of the lattice where that makes paths shorter; with
+  /// `any_angle`, and without a horizon.
+  bool smoothing = true;
   int connectivity = 8;  // the number of neighbours of a cell: 4, 8, 16 or 32
   Replan replan = Replan::all;
   /// Seconds, >= 0, by which any two robots may be early or late without a collision.

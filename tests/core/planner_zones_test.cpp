@@ -129,8 +129,10 @@ TEST(PlannerZones, OneWayCorridorsMakeRobotsGoRound) {
                                                  "..........."});
   const std::vector<Zone> zones{one_way_box({1, 0}, {10, 1}, 0.0, 0.5),
                                 one_way_box({1, 2}, {10, 3}, 3.14159, 0.5)};
+  PlanOptions options;
+  options.smoothing = false;
   const Plan plan = plan_checked(
-      with_zones(ring, {robot_at(0.5, 0.5).to(10.5, 0.5), robot_at(10.5, 1.5).to(0.5, 1.5)}, zones));
+      with_zones(ring, {robot_at(0.5, 0.5).to(10.5, 0.5), robot_at(10.5, 1.5).to(0.5, 1.5)}, zones), options);
   ASSERT_EQ(plan.plans.size(), 2U);
   EXPECT_NEAR(length_of(plan.plans[0]), 10.0, 1e-9);
   EXPECT_NEAR(length_of(plan.plans[1]), 12.0, 1e-9);  // by the upper corridor

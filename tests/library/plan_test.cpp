@@ -260,6 +260,7 @@ TEST(PublicOptions, HaveTheDefaultsOfTheService) {
   EXPECT_EQ(own.inflation, service.inflation);
   EXPECT_EQ(own.wait_before_move, service.wait_before_move);
   EXPECT_EQ(own.any_angle, service.any_angle);
+  EXPECT_EQ(own.smoothing, service.smoothing);
   EXPECT_EQ(own.connectivity, service.connectivity);
   EXPECT_EQ(own.replan, service.replan);
   EXPECT_EQ(own.interval_margin, service.interval_margin);

@@ -25,6 +25,7 @@ PlanOptions options_for(support::Dice& dice) {
   PlanOptions options = support::random_options(dice, support::random_problem(dice, 1));
   options.mode = PlanOptions::Mode::anytime;
   options.max_iterations = 100;
+  options.smoothing = false;
   return options;
 }
 

@@ -107,6 +107,7 @@ inline core::PlanOptions random_options(Dice& dice, const core::Problem& problem
   options.mode = dice.chance(0.3) ? Options::Mode::anytime : Options::Mode::first;
   options.max_iterations = 5;
   options.any_angle = dice.chance(0.7);
+  options.smoothing = options.seed % 5 != 0;
   options.connectivity = 4 << dice.below(4);
   if (dice.chance(0.3)) options.start_safe_interval = dice.between(0.0, 10.0);
   if (dice.chance(0.3)) options.inflation = problem.grid().resolution() * dice.between(0.0, 0.5);

@@ -268,6 +268,7 @@ class PlanOptions(TypedDict, total=False):
     inflation: float
     wait_before_move: float
     any_angle: bool
+    smoothing: bool
     connectivity: Literal[4, 8, 16, 32]
     max_iterations: int | None
     replan: Literal["all", "where_needed"]

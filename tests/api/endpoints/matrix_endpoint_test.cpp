@@ -55,6 +55,7 @@ Json plan_alone(const Json& request, std::size_t from, std::size_t to) {
   plan["options"] = request.value("options", Json::object());
   plan["options"]["mode"] = "anytime";
   plan["options"]["max_iterations"] = 100;
+  plan["options"]["smoothing"] = false;
   return json_of(plan_endpoint(plan.dump(), context()));
 }
 

@@ -85,6 +85,7 @@ inline Json json_of(const core::PlanOptions& options) {
             {"reordering", kReorderings[static_cast<std::size_t>(options.reordering)]},
             {"seed", options.seed},
             {"any_angle", options.any_angle},
+            {"smoothing", options.smoothing},
             {"connectivity", options.connectivity},
             {"start_safe_interval", options.start_safe_interval},
             {"inflation", options.inflation},

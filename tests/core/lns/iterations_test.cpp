@@ -110,17 +110,23 @@ struct LateRobots : Planning {
 };
 
 struct IterationsOfLateRobots : LateRobots {
-  /// Completes so many iterations without a change.
+  /// Completes so many iterations with a search, and those that only smooth between them, without a change.
   void in_vain(int count) {
-    for (int k = 0; k < count; ++k) {
+    while (count > 0) {
       Iteration iteration = iterations.choose();
+      if (iteration.options.limits) --count;
       EXPECT_FALSE(iterations.accept(iteration, *workspace));
     }
+  }
+  Iteration choose_search() {
+    Iteration iteration = iterations.choose();
+    while (!iteration.options.limits) iteration = iterations.choose();
+    return iteration;
   }
   double most_loss() { return iterations.choose().options.most_loss; }
   /// Completes an iteration that lets robot 0 set out at `departure`.
   bool let_depart(double departure) {
-    Iteration iteration = iterations.choose();
+    Iteration iteration = choose_search();
     Trajectory changed = row(2.5, departure);
     const double gain = incumbent.cost(0) - changed.cost;
     iteration.result.change = Change{{{0, std::move(changed)}}, gain};

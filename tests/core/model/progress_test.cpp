@@ -158,7 +158,9 @@ TEST(Progress, ShowsNoPlanUnlessRequested) {
 
 TEST(Progress, ShowsPartialPlansWithTheirUnplannedRobots) {
   Recorder recorder;
-  const Plan plan = observed_plan(corridor_and_hall(), anytime(20), recorder);
+  PlanOptions options = anytime(20);
+  options.smoothing = false;  // nothing would be left to improve
+  const Plan plan = observed_plan(corridor_and_hall(), options, recorder);
   ASSERT_FALSE(recorder.shown.empty());
   ASSERT_EQ(recorder.shown.front().unplanned.size(), 1u);
   EXPECT_EQ(recorder.shown.front().unplanned.front().robot, plan.unplanned.front().robot);

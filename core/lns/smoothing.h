@@ -1,0 +1,40 @@
+#pragma once
+
+// Makes paths shorter without a search: their bends leave the lattice.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/model/plan_options.h"
+#include "core/model/trajectory.h"
+#include "core/prioritized/plan_state.h"
+#include "core/runtime/random.h"
+#include "core/runtime/stop_condition.h"
+
+namespace fleetplan::core {
+
+/// Whether paths may leave the lattice, and end at goals.
+inline bool may_smooth(const PlanOptions& options) {
+  return options.smoothing && options.any_angle && !options.horizon;
+}
+
+struct Smoothed {
+  std::optional<Trajectory> trajectory;  // none if nothing was gained
+  std::int64_t timed = 0;                // paths that were timed, see TimedPath
+};
+
+/// Moves, removes and inserts bends of the robot's path, at random, `tries` times, and keeps what makes its
+/// share in the objective less (see share_of()). Waits become shorter as well where others leave time. The
+/// trajectory passes all others; a reservation of the robot itself is left out. Paths that TimedPath does not
+/// take stay as they are. The state is left unchanged.
+Smoothed smooth(PlanState& state, std::size_t robot, const Trajectory& trajectory, int tries, Random& random,
+                const StopCondition& stop);
+
+/// Smooths the new trajectories of these robots, briefly, one after the other, in a share of the time that is
+/// left. Returns whether it ended early.
+bool smooth_briefly(PlanState& state, std::vector<std::size_t> robots, Random& random,
+                    const StopCondition& stop);
+
+}  // namespace fleetplan::core

@@ -1,0 +1,116 @@
+#pragma once
+
+// The earliest times at which one robot can follow a given path among reservations.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/geometry/position.h"
+#include "core/geometry/segment.h"
+#include "core/instance/instance.h"
+#include "core/model/itinerary.h"
+#include "core/model/trajectory.h"
+#include "core/reservation/reservation_table.h"
+#include "core/runtime/stop_condition.h"
+#include "core/sipp/vertices.h"
+
+namespace fleetplan::core {
+
+/// A path of straight moves from stop to stop, with the earliest times at which the robot can follow it. It
+/// is safe-interval path planning (Phillips and Likhachev, ICRA 2011) in which only the times are free: what
+/// is kept of each stop is the earliest arrival in each of its safe intervals. Its stops need not be
+/// vertices.
+///
+/// For robots that follow a planned trajectory to their goals, with one load, and are not at their first goal
+/// when their plan begins; and without a horizon.
+class TimedPath {
+ public:
+  /// The robot holds no reservation in `table`, or an ignored one. Once `stop` is met, no path is timed. The
+  /// arguments outlive this object.
+  TimedPath(const Instance& instance, const ReservationTable& table, std::size_t robot,
+            const StopCondition& stop);
+
+  /// Takes the path of a trajectory of the robot. Returns false if it cannot be followed as fast, or is none
+  /// of those that can be timed.
+  bool follow(const Trajectory& trajectory);
+
+  /// The stops, the begin and the end included.
+  std::size_t stop_count() const { return stops_.size(); }
+  const Position& position(std::size_t stop) const { return stops_[stop].position; }
+  /// Whether the path may leave this stop out: it serves no goal, and the robot does not turn back there.
+  bool is_bend(std::size_t stop) const;
+
+  /// Replaces `count` stops, from `first` on, which are bends, by at most one. Returns whether it has: the
+  /// moves are free of obstacles, the stops that follow are reached sooner, and the trajectory costs less
+  /// than `bound` seconds and satisfies `accept`.
+  template <class Accept>
+  bool replace(std::size_t first, std::size_t count, const std::optional<Position>& by, double bound,
+               const Accept& accept) {
+    if (!try_replace(first, count, by, bound)) return false;
+    Trajectory tried = trajectory_of(tried_);
+    if (!accept(tried)) return false;
+    std::swap(stops_, tried_);
+    trajectory_ = std::move(tried);
+    return true;
+  }
+
+  /// The trajectory along the path.
+  const Trajectory& trajectory() const { return trajectory_; }
+  /// How many paths were timed so far.
+  std::int64_t timed() const { return timed_count_; }
+
+ private:
+  /// The earliest arrival in a safe interval.
+  struct Arrival {
+    double t = 0.0;          // seconds
+    double ready = 0.0;      // seconds: then the goals of the stop are served
+    double departure = 0.0;  // seconds, from the stop before
+    std::size_t from = 0;    // of the arrivals there
+    SafeInterval safe;
+  };
+  /// A stop, and the move to it.
+  struct Stop {
+    Position position{0.0, 0.0};
+    bool reverse = false;        // the move
+    std::size_t goals_end = 0;   // the robot leaves with so many of Itinerary::goals served
+    double heading = 0.0;        // of the robot during the move
+    double heading_after = 0.0;  // once the goals of the stop are served
+    double duration = 0.0;       // seconds, of the move
+    double least_left = 0.0;     // seconds from the arrival to the end of the path, at least
+    std::vector<SafeInterval> safe;
+    std::vector<Arrival> arrivals;  // ascending
+  };
+
+  bool set_stops(const Trajectory& trajectory);
+  bool set_goals(const Trajectory& trajectory, const std::vector<double>& arrivals);
+  void set_move(const Stop& from, Stop& to) const;
+  void set_least_left(std::vector<Stop>& stops) const;
+  void set_safe_intervals(const Stop& from, Stop& to, bool is_last) const;
+  void begin(Stop& stop) const;
+
+  bool try_replace(std::size_t first, std::size_t count, const std::optional<Position>& by, double bound);
+  bool is_free(const Position& from, const Position& to) const;
+  Footprint footprint(const Stop& stop) const;
+  double preparation(const Stop& from, const Stop& to) const;
+  double served(const Stop& from, const Stop& to, double t, std::vector<Visit>* visits = nullptr) const;
+  bool arrive(const Stop& from, Stop& to, double bound);
+  bool is_sooner(const Stop& tried, const Stop& now) const;
+  Trajectory trajectory_of(const std::vector<Stop>& stops) const;
+
+  const ReservationTable& table_;
+  StopStride stop_;  // asked at every stop, or at some of them
+  const std::size_t robot_;
+  const LoadedRobot& loaded_;
+  const Itinerary& itinerary_;
+  const MoveTimes times_;
+  const bool may_be_timed_;
+  std::vector<Stop> stops_;
+  std::vector<Stop> tried_;
+  Trajectory trajectory_;
+  std::int64_t timed_count_ = 0;
+};
+
+}  // namespace fleetplan::core
