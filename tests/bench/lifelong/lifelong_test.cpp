@@ -9,13 +9,13 @@
 namespace fleetplan::bench {
 namespace TEST_FILE {
 
-LifelongJob job(const char* strategy) {
+LifelongJob job(const char* strategy, std::uint64_t seed = 1) {
   const nlohmann::json line = {{"name", strategy},
                                {"strategy", strategy},
                                {"shelves", {2, 3}},
                                {"robots", 6},
                                {"seconds", 120},
-                               {"seed", 1},
+                               {"seed", seed},
                                {"budget_ms", 10'000},
                                {"commit", 0.5},
                                {"halt", 0.0},
@@ -25,8 +25,8 @@ LifelongJob job(const char* strategy) {
 }
 
 /// A simulation in which planning takes no time, so slow builds and busy machines have the same one.
-LifelongResult run(const char* strategy) {
-  const LifelongResult result = simulate(job(strategy));
+LifelongResult run(const char* strategy, std::uint64_t seed = 1) {
+  const LifelongResult result = simulate(job(strategy, seed));
   EXPECT_EQ(result.fault, "");
   EXPECT_EQ(result.unplanned, 0u);
   EXPECT_GE(result.robot_seconds, 6 * 120.0);
@@ -57,11 +57,17 @@ TEST(Lifelong, ServesMoreWithSnapshotsThanWhenTheWorldStops) {
 }
 
 TEST(Lifelong, ChangesNoPlanOfARobotUnderWayThatHolds) {
-  const LifelongResult committed = run("committed");
-  const LifelongResult snapshots = run("snapshots");
-  EXPECT_GT(committed.under_way, committed.replans);
-  EXPECT_LE(committed.changed * 20, committed.under_way);
-  EXPECT_GE(committed.tasks + 2, snapshots.tasks);
+  constexpr std::uint64_t kSeeds = 8;  // one of them serves 5 % more or less by chance
+  std::size_t served = 0;
+  std::size_t served_from_snapshots = 0;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const LifelongResult committed = run("committed", seed);
+    EXPECT_GT(committed.under_way, committed.replans);
+    EXPECT_LE(committed.changed * 20, committed.under_way);
+    served += committed.tasks;
+    served_from_snapshots += run("snapshots", seed).tasks;
+  }
+  EXPECT_GE(served + 2 * kSeeds, served_from_snapshots);
 }
 
 TEST(Lifelong, TakesJobsOnly) {
