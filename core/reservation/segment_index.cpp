@@ -8,6 +8,9 @@ namespace {
 
 /// More classes cost memory and time to reserve, fewer cost longer bucket lists.
 constexpr std::size_t kMaxClasses = 6;
+/// The side of a bucket in cells, and in typical radii. Smaller buckets cost memory, in all of which a disk
+/// is entered, and larger ones longer lists.
+constexpr double kSideRatio = 2.0;
 /// Buckets of all classes together, and of them for each robot, to bound memory and time on huge maps.
 constexpr double kMaxBuckets = 2.5e5;
 constexpr double kMaxBucketsPerRobot = 4096.0;
@@ -40,7 +43,7 @@ double bucket_size(double width, double height, double cell_size, const std::vec
   const auto classes = static_cast<double>(class_radii(radii).size());
   const auto robots = static_cast<double>(std::max<std::size_t>(radii.size(), 1));
   const double most = std::min(kMaxBuckets, kMaxBucketsPerRobot * robots);
-  return std::max({cell_size, typical, std::sqrt(width * height * classes / most)});
+  return std::max(kSideRatio * std::max(cell_size, typical), std::sqrt(width * height * classes / most));
 }
 
 }  // namespace
