@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "core/lns/smoothing.h"
@@ -19,14 +20,15 @@ constexpr double kLeastShare = 0.1;
 
 double AdaptiveChoice::rate(const Record& record) const { return record.gain / record.effort; }
 
-std::vector<double> AdaptiveChoice::weights() const {
+std::vector<double> AdaptiveChoice::weights(std::size_t count) const {
+  const std::span records(records_.data(), count);
   double best = 0.0;
-  for (const Record& record : records_) {
+  for (const Record& record : records) {
     if (record.effort > 0.0) best = std::max(best, rate(record));
   }
   std::vector<double> weights;
-  weights.reserve(records_.size());
-  for (const Record& record : records_) {
+  weights.reserve(count);
+  for (const Record& record : records) {
     // The effort, not the number of tries, is proportional to the rate.
     if (best == 0.0 || record.effort == 0.0) {
       weights.push_back(record.effort == 0.0 ? -1.0 : 1.0 / record.effort);
@@ -41,8 +43,8 @@ std::vector<double> AdaptiveChoice::weights() const {
   return weights;
 }
 
-std::size_t AdaptiveChoice::choose(Random& random) const {
-  const std::vector<double> weights = this->weights();
+std::size_t AdaptiveChoice::choose(Random& random, std::size_t count) const {
+  const std::vector<double> weights = this->weights(count);
   double remaining = 0.0;
   for (const double weight : weights) remaining += weight;
   remaining *= random.unit();
@@ -110,6 +112,12 @@ constexpr std::array<SearchLimits, 3> kLimits{{
 
 }  // namespace
 
+AdaptiveParameters::Choice AdaptiveParameters::Choice::smoothing() {
+  Choice choice;
+  choice.limits = kLimits.size();
+  return choice;
+}
+
 std::size_t AdaptiveParameters::Choice::robots() const { return search_limits() ? kSizes[size] : 1; }
 
 std::optional<SearchLimits> AdaptiveParameters::Choice::search_limits() const {
@@ -117,14 +125,14 @@ std::optional<SearchLimits> AdaptiveParameters::Choice::search_limits() const {
   return kLimits[limits];
 }
 
-AdaptiveParameters::AdaptiveParameters(bool may_smooth)
-    : kinds_(kNeighbourhoods), sizes_(kSizes.size()), limits_(kLimits.size() + (may_smooth ? 1 : 0)) {}
+AdaptiveParameters::AdaptiveParameters()
+    : kinds_(kNeighbourhoods), sizes_(kSizes.size()), limits_(kLimits.size() + 1) {}
 
-AdaptiveParameters::Choice AdaptiveParameters::choose(Random& random) const {
+AdaptiveParameters::Choice AdaptiveParameters::choose(Random& random, bool may_smooth) const {
   Choice choice;
   choice.kind = kinds_.choose(random);
   choice.size = sizes_.choose(random);
-  choice.limits = limits_.choose(random);
+  choice.limits = limits_.choose(random, kLimits.size() + (may_smooth ? 1 : 0));
   return choice;
 }
 
@@ -241,9 +249,12 @@ namespace {
 /// search fails. Small gains count too, so one iteration in kIterationsPerAnyGain accepts any gain.
 constexpr double kMinGainShare = 0.15;
 constexpr std::size_t kIterationsPerAnyGain = 4;
-/// The same of a path that is only smoothed, until searches have been in vain: each change of the plan takes
-/// time, as it is made on all threads.
-constexpr double kMinGainShareOfSmoothing = 0.03;
+/// Searches for each robot until much is smoothed: they gain more at first, and the end of the search smooths
+/// all that is left.
+constexpr std::int64_t kSearchesPerRobot = 50;
+/// The tries to smooth a path.
+constexpr int kFewTries = 25;
+constexpr int kManyTries = 100;
 /// A change may make the flowtime longer by this share of the mean delay of the robots, which leads out of
 /// local optima (threshold accepting; Dueck and Scheuer, 1990).
 constexpr double kMostLossShare = 0.2;
@@ -257,15 +268,20 @@ constexpr int kDoublings = 8;
 Iteration Iterations::choose() {
   Iteration iteration;
   iteration.version = incumbent_.version();
-  iteration.parameters = parameters_.choose(random_);
-  iteration.options.min_gain_share = random_.below(kIterationsPerAnyGain) == 0 ? 0.0 : kMinGainShare;
+  const std::optional<std::size_t> to_smooth = next_to_smooth();
+  const bool is_late = this->is_late();
+  iteration.parameters = to_smooth ? AdaptiveParameters::Choice::smoothing()
+                                   : parameters_.choose(random_, is_late && incumbent_.may_smooth());
   iteration.options.limits = iteration.parameters.search_limits();
-  iteration.seed = random_.seed();
   const bool searches = iteration.options.limits.has_value();
-  if (!searches) iteration.options.min_gain_share = is_in_vain() ? 0.0 : kMinGainShareOfSmoothing;
+  iteration.options.tries = searches && !is_late ? kFewTries : kManyTries;
+  if (searches && random_.below(kIterationsPerAnyGain) != 0) iteration.options.min_gain_share = kMinGainShare;
+  iteration.seed = random_.seed();
   if (!for_makespan_) iteration.options.most_loss = most_loss();
   if (for_makespan_) iteration.options.cost_limit = incumbent_.makespan();
-  if (for_makespan_ && random_.below(2) == 0) {
+  if (to_smooth) {
+    iteration.first = *to_smooth;
+  } else if (for_makespan_ && random_.below(2) == 0) {
     iteration.options.gain = NeighbourhoodOptions::Gain::first;
     iteration.first = incumbent_.last_to_arrive();
   } else {
@@ -274,9 +290,28 @@ Iteration Iterations::choose() {
   return iteration;
 }
 
-/// Whether as many iterations as there are robots have brought no better plan.
-bool Iterations::is_in_vain() const {
-  return vain_ >= static_cast<std::int64_t>(incumbent_.planned().size());
+void Iterations::smooth_all() {
+  if (!incumbent_.may_smooth()) return;
+  return_to_best();
+  smooths_all_ = true;
+  smoothed_in_vain_ = 0;
+}
+
+/// The next delayed robot to smooth, if all are; none if none is left.
+std::optional<std::size_t> Iterations::next_to_smooth() {
+  const std::vector<std::size_t>& planned = incumbent_.planned();
+  for (std::size_t k = 0; smooths_all_ && k < planned.size(); ++k) {
+    const std::size_t robot = planned[next_to_smooth_++ % planned.size()];
+    if (exhaustion_.delay(robot) > kLeastDelay) return robot;
+  }
+  smooths_all_ = false;
+  return std::nullopt;
+}
+
+/// Whether there were many searches, or as many as there are robots have brought no better plan.
+bool Iterations::is_late() const {
+  const auto robots = static_cast<std::int64_t>(incumbent_.planned().size());
+  return vain_ >= robots || searches_ >= kSearchesPerRobot * robots;
 }
 
 double Iterations::most_loss() const {
@@ -302,9 +337,14 @@ void Iterations::run(Iteration& iteration, Workspace& workspace) const {
 }
 
 bool Iterations::accept(Iteration& iteration, Workspace& workspace) {
-  if (!iteration.options.limits) return adopt(iteration, workspace);
-  ++vain_;
   const bool is_best = adopt(iteration, workspace);
+  if (!iteration.options.limits) {
+    smoothed_in_vain_ = is_best ? 0 : smoothed_in_vain_ + 1;
+    if (smoothed_in_vain_ >= incumbent_.planned().size()) smooths_all_ = false;
+    return is_best;
+  }
+  ++searches_;
+  ++vain_;
   if (is_best) {
     vain_ = straying_ = 0;
   } else if (!for_makespan_) {

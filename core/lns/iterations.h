@@ -25,7 +25,9 @@ class AdaptiveChoice {
   /// Chooses among `count` >= 1 alternatives, all equal at first.
   explicit AdaptiveChoice(std::size_t count) : records_(count) {}
 
-  std::size_t choose(Random& random) const;
+  std::size_t choose(Random& random) const { return choose(random, records_.size()); }
+  /// Chooses among the first `count` >= 1 of the alternatives.
+  std::size_t choose(Random& random, std::size_t count) const;
 
   /// Records one try of the alternative: its gain (>= 0) and its effort (> 0), in any units.
   void learn(std::size_t alternative, double gain, double effort);
@@ -38,7 +40,7 @@ class AdaptiveChoice {
 
   /// The gain per effort of an alternative.
   double rate(const Record& record) const;
-  std::vector<double> weights() const;
+  std::vector<double> weights(std::size_t count) const;
 
   std::vector<Record> records_;
 };
@@ -73,16 +75,19 @@ class AdaptiveParameters {
     std::size_t size = 0;
     std::size_t limits = 0;
 
+    /// One robot is smoothed only.
+    static Choice smoothing();
+
     Neighbourhood neighbourhood() const { return static_cast<Neighbourhood>(kind); }
     std::size_t robots() const;
     /// Of the searches; none if a robot is smoothed only.
     std::optional<SearchLimits> search_limits() const;
   };
 
-  /// `may_smooth`: whether robots may be smoothed only.
-  explicit AdaptiveParameters(bool may_smooth);
+  AdaptiveParameters();
 
-  Choice choose(Random& random) const;
+  /// `may_smooth`: whether a robot may be smoothed only.
+  Choice choose(Random& random, bool may_smooth) const;
   /// Records the result of an iteration: `gain` in seconds, >= 0, and its effort, > 0.
   void learn(const Choice& choice, double gain, double effort);
 
@@ -169,12 +174,14 @@ class Iterations {
         stop_(stop),
         for_makespan_(for_makespan),
         best_(incumbent),
-        parameters_(incumbent.may_smooth()),
         first_robots_(incumbent.robot_count()),
         smoothed_robots_(incumbent.robot_count()) {}
 
   /// Chooses what to try next, by recent success.
   Iteration choose();
+  /// From now on, iterations smooth one robot after the other, beginning with the best plan, until none of
+  /// them gains by it.
+  void smooth_all();
   /// Plans the neighbourhood again, in a workspace with the incumbent at the time of choose(). May run on any
   /// thread.
   void run(Iteration& iteration, Workspace& workspace) const;
@@ -190,9 +197,10 @@ class Iterations {
   BestPlan& best() { return best_; }
 
  private:
-  bool is_in_vain() const;
+  bool is_late() const;
   double most_loss() const;
   std::size_t choose_delayed(const DelayedChoice& choice);
+  std::optional<std::size_t> next_to_smooth();
   void learn(const Iteration& iteration);
   bool adopt(Iteration& iteration, Workspace& workspace);
   void stray();
@@ -209,7 +217,11 @@ class Iterations {
   DelayedChoice first_robots_;
   DelayedChoice smoothed_robots_;
   std::int64_t vain_ = 0;
+  std::int64_t searches_ = 0;  // iterations with a search
   std::int64_t straying_ = 0;  // iterations with more and more loss
+  bool smooths_all_ = false;
+  std::size_t next_to_smooth_ = 0;    // position in planned()
+  std::size_t smoothed_in_vain_ = 0;  // iterations without a search since one of them gained
 };
 
 }  // namespace fleetplan::core

@@ -31,6 +31,8 @@ constexpr std::size_t kRound = 1024;
 /// Steps with a search for each robot before vertices get more neighbours (WorkspacePool::add_moves), and
 /// twice as many before they get more again: first, as many improvements as possible count, later, good ones.
 constexpr std::size_t kStepsPerRobot = 8;
+/// The last share of the time, and of the iterations if they are limited, in which all robots are smoothed.
+constexpr double kSmoothingShare = 0.1;
 /// Iterations without an improvement after which it is tested whether one is possible.
 constexpr int kVainIterations = 32;
 
@@ -60,10 +62,12 @@ class LargeNeighbourhoodSearch {
         steps_before_more_moves_(steps_with_moves_),
         workspaces_(state, incumbent_, stop),
         executor_(executor),
-        stop_(stop) {}
+        stop_(stop),
+        time_to_smooth_(after_share(stop, 1.0 - kSmoothingShare)) {}
 
   LnsResult run(std::int64_t max_iterations, const BeforeRound& before_round) {
     iterations_left_ = max_iterations;
+    iterations_to_smooth_ = static_cast<std::int64_t>(kSmoothingShare * static_cast<double>(max_iterations));
     try {
       improve(before_round);
     } catch (const std::bad_alloc&) {  // not granted to the job
@@ -72,6 +76,7 @@ class LargeNeighbourhoodSearch {
     if (is_short_of_memory()) workspaces_.release_others();
     iterations_.return_to_best();
     workspaces_.update_callers_state({});
+    result_.cut_off = result_.cut_off || is_timed_;
     return result_;
   }
 
@@ -165,6 +170,7 @@ class LargeNeighbourhoodSearch {
       is_over_ = true;
     }
     if (is_over_) return std::nullopt;
+    smooth_all_if_due();
     workspace.update();
     Step step;
     if (iterations_.vain() >= kVainIterations)
@@ -176,6 +182,13 @@ class LargeNeighbourhoodSearch {
     const bool searches = step.test || step.iteration.options.limits;
     if (searches && steps_before_more_moves_ > 0) --steps_before_more_moves_;
     return step;
+  }
+
+  void smooth_all_if_due() {
+    if (smooths_all_ || !incumbent_.may_smooth()) return;
+    is_timed_ = time_to_smooth_.met();
+    smooths_all_ = is_timed_ || iterations_left_ <= iterations_to_smooth_;
+    if (smooths_all_) iterations_.smooth_all();
   }
 
   void run(Step& step, Workspace& workspace) const {
@@ -228,7 +241,11 @@ class LargeNeighbourhoodSearch {
   WorkspacePool workspaces_;
   Executor& executor_;
   const StopCondition& stop_;
+  const StopCondition time_to_smooth_;
+  bool is_timed_ = false;  // the time has decided when robots are smoothed
+  bool smooths_all_ = false;
   std::int64_t iterations_left_ = 0;
+  std::int64_t iterations_to_smooth_ = 0;
   LnsResult result_;
   double effort_ = 0.0;                // of the iterations, in expansions
   std::atomic<bool> is_over_ = false;  // the round is over

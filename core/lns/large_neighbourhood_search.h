@@ -16,7 +16,7 @@ namespace fleetplan::core {
 struct LnsResult {
   std::int64_t improvements = 0;  // times that the plan became better
   std::int64_t expansions = 0;    // labels expanded
-  bool cut_off = false;           // the stop condition or the executor ended it
+  bool cut_off = false;           // the stop condition or the executor ended it, or the time chose its end
   bool exhausted = false;         // nothing is left to try: no robot can become cheaper
 };
 

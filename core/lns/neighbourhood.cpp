@@ -132,8 +132,6 @@ constexpr double kSmoothingEffort = 20.0;
 constexpr double kTimedEffort = 1.0;
 /// By how much of its cost a path is expected to be smoothed at most.
 constexpr double kMostSmoothed = 0.1;
-/// The tries to smooth each robot.
-constexpr int kTries = 100;
 
 class NeighbourhoodPlanning {
  public:
@@ -194,7 +192,7 @@ class NeighbourhoodPlanning {
 
   void smooth_path(std::size_t robot, Trajectory& trajectory) {
     if (!may_smooth(instance_.options())) return;
-    Smoothed smoothed = smooth(state_, robot, trajectory, kTries, random_, stop_);
+    Smoothed smoothed = smooth(state_, robot, trajectory, options_.tries, random_, stop_);
     effort_ += kSmoothingEffort + kTimedEffort * static_cast<double>(smoothed.timed);
     if (smoothed.trajectory) trajectory = std::move(*smoothed.trajectory);
   }

@@ -80,6 +80,7 @@ struct NeighbourhoodOptions {
   /// Limits of every search; the bound follows from the other members. None: the first robot's path is
   /// smoothed, and nothing else.
   std::optional<SearchLimits> limits = SearchLimits();
+  int tries = 100;  // to smooth each path
 };
 
 struct NeighbourhoodResult {

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -58,6 +59,17 @@ TEST(AdaptiveChoice, AdaptsToChangedGains) {
   tries(choice, {5.0, 1.0}, {1.0, 1.0});
   const auto chosen = tries(choice, {1.0, 5.0}, {1.0, 1.0});
   EXPECT_GT(chosen[1], 2 * chosen[0]);
+}
+
+TEST(AdaptiveChoice, ChoosesAmongTheFirstAlternatives) {
+  AdaptiveChoice choice(3);
+  tries(choice, {1.0, 1.0, 50.0}, {1.0, 1.0, 1.0});
+  Random random(1);
+  std::vector<int> chosen(3, 0);
+  for (int k = 0; k < 300; ++k) ++chosen[choice.choose(random, 2)];
+  EXPECT_GT(chosen[0], 100);
+  EXPECT_GT(chosen[1], 100);
+  EXPECT_EQ(chosen[2], 0);
 }
 
 /// How often each robot is chosen in 1000 draws.
@@ -169,6 +181,46 @@ TEST(Iterations, ReturnToTheBestPlanAfterTheyHaveStrayed) {
   EXPECT_EQ(p.iterations.vain(), 24) << "since the best plan was found";
   p.in_vain(2);
   EXPECT_DOUBLE_EQ(p.most_loss(), 2.0 * least) << "they stray again at once";
+}
+
+TEST(Iterations, SmoothWithoutASearchOnceSearchesAreInVain) {
+  IterationsOfLateRobots p;
+  const auto smoothed = [&] {
+    int count = 0;
+    for (int k = 0; k < 200; ++k) count += p.iterations.choose().options.limits ? 0 : 1;
+    return count;
+  };
+  EXPECT_EQ(smoothed(), 0);
+  const int tries_at_first = p.iterations.choose().options.tries;
+  p.in_vain(2);
+  EXPECT_GT(smoothed(), 20);
+  EXPECT_GT(p.choose_search().options.tries, tries_at_first);
+}
+
+TEST(Iterations, SmoothOneRobotAfterTheOtherUntilNoneGains) {
+  IterationsOfLateRobots p;
+  EXPECT_FALSE(p.let_depart(10.1)) << "worse";
+  p.iterations.smooth_all();
+  EXPECT_EQ(p.incumbent.cost(0), LateRobots::row(2.5, 10.0).cost) << "of the best plan";
+  const auto smooth_next = [&](std::optional<double> departure) {
+    Iteration iteration = p.iterations.choose();
+    EXPECT_FALSE(iteration.options.limits);
+    if (departure) {
+      Trajectory changed = LateRobots::row(2.5, *departure);
+      const double gain = p.incumbent.cost(0) - changed.cost;
+      iteration.result.change = Change{{{0, std::move(changed)}}, gain};
+    }
+    p.iterations.accept(iteration, *p.workspace);
+    return iteration.first;
+  };
+  EXPECT_EQ(smooth_next(std::nullopt), 0U);
+  EXPECT_EQ(smooth_next(std::nullopt), 1U);
+  EXPECT_TRUE(p.iterations.choose().options.limits) << "both in vain";
+  p.iterations.smooth_all();
+  EXPECT_EQ(smooth_next(9.0), 0U);
+  EXPECT_EQ(smooth_next(std::nullopt), 1U);
+  EXPECT_EQ(smooth_next(std::nullopt), 0U) << "has gained";
+  EXPECT_TRUE(p.iterations.choose().options.limits);
 }
 
 }  // namespace TEST_FILE
