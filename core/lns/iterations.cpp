@@ -249,8 +249,8 @@ namespace {
 /// search fails. Small gains count too, so one iteration in kIterationsPerAnyGain accepts any gain.
 constexpr double kMinGainShare = 0.15;
 constexpr std::size_t kIterationsPerAnyGain = 4;
-/// Searches for each robot until much is smoothed: they gain more at first, and the end of the search smooths
-/// all that is left.
+/// Searches for each robot until much is smoothed, if not as many as there are robots have been in vain
+/// before: at first, searches gain more.
 constexpr std::int64_t kSearchesPerRobot = 50;
 /// The tries to smooth a path.
 constexpr int kFewTries = 25;
@@ -268,19 +268,20 @@ constexpr int kDoublings = 8;
 Iteration Iterations::choose() {
   Iteration iteration;
   iteration.version = incumbent_.version();
-  const std::optional<std::size_t> to_smooth = next_to_smooth();
-  const bool is_late = this->is_late();
-  iteration.parameters = to_smooth ? AdaptiveParameters::Choice::smoothing()
-                                   : parameters_.choose(random_, is_late && incumbent_.may_smooth());
+  const auto robots = static_cast<std::int64_t>(incumbent_.planned().size());
+  is_late_ = is_late_ || smooths_all_ || vain_ >= robots || searches_ >= kSearchesPerRobot * robots;
+  const std::optional<std::size_t> smoothed = next_smoothed();
+  iteration.parameters = smoothed ? AdaptiveParameters::Choice::smoothing()
+                                  : parameters_.choose(random_, is_late_ && incumbent_.may_smooth());
   iteration.options.limits = iteration.parameters.search_limits();
   const bool searches = iteration.options.limits.has_value();
-  iteration.options.tries = searches && !is_late ? kFewTries : kManyTries;
+  iteration.options.tries = searches && !is_late_ ? kFewTries : kManyTries;
   if (searches && random_.below(kIterationsPerAnyGain) != 0) iteration.options.min_gain_share = kMinGainShare;
   iteration.seed = random_.seed();
   if (!for_makespan_) iteration.options.most_loss = most_loss();
   if (for_makespan_) iteration.options.cost_limit = incumbent_.makespan();
-  if (to_smooth) {
-    iteration.first = *to_smooth;
+  if (smoothed) {
+    iteration.first = *smoothed;
   } else if (for_makespan_ && random_.below(2) == 0) {
     iteration.options.gain = NeighbourhoodOptions::Gain::first;
     iteration.first = incumbent_.last_to_arrive();
@@ -290,28 +291,28 @@ Iteration Iterations::choose() {
   return iteration;
 }
 
-void Iterations::smooth_all() {
+void Iterations::begin_smoothing() {
   if (!incumbent_.may_smooth()) return;
   return_to_best();
+  smoothing_order_ = incumbent_.planned();
+  const auto urgency = [&](std::size_t robot) {
+    return for_makespan_ ? incumbent_.cost(robot) : exhaustion_.delay(robot);
+  };
+  std::stable_sort(smoothing_order_.begin(), smoothing_order_.end(),
+                   [&](std::size_t a, std::size_t b) { return urgency(a) > urgency(b); });
   smooths_all_ = true;
-  smoothed_in_vain_ = 0;
+  smoothing_position_ = smoothed_in_vain_ = 0;
 }
 
 /// The next delayed robot to smooth, if all are; none if none is left.
-std::optional<std::size_t> Iterations::next_to_smooth() {
-  const std::vector<std::size_t>& planned = incumbent_.planned();
-  for (std::size_t k = 0; smooths_all_ && k < planned.size(); ++k) {
-    const std::size_t robot = planned[next_to_smooth_++ % planned.size()];
+std::optional<std::size_t> Iterations::next_smoothed() {
+  const std::size_t count = smoothing_order_.size();
+  for (std::size_t k = 0; smooths_all_ && k < count; ++k) {
+    const std::size_t robot = smoothing_order_[smoothing_position_++ % count];
     if (exhaustion_.delay(robot) > kLeastDelay) return robot;
   }
   smooths_all_ = false;
   return std::nullopt;
-}
-
-/// Whether there were many searches, or as many as there are robots have brought no better plan.
-bool Iterations::is_late() const {
-  const auto robots = static_cast<std::int64_t>(incumbent_.planned().size());
-  return vain_ >= robots || searches_ >= kSearchesPerRobot * robots;
 }
 
 double Iterations::most_loss() const {
@@ -355,7 +356,9 @@ bool Iterations::accept(Iteration& iteration, Workspace& workspace) {
 
 bool Iterations::adopt(Iteration& iteration, Workspace& workspace) {
   std::optional<Change>& change = iteration.result.change;
-  const bool adopted = change && !is_outdated(iteration, workspace);
+  // While all robots are smoothed, no earlier search may lead away from the best plan.
+  const bool may_adopt = change && (!smooths_all_ || change->gain > 0.0);
+  const bool adopted = may_adopt && !is_outdated(iteration, workspace);
   learn(iteration);
   if (!adopted) return false;
   for (Change::Part& part : change->parts) {

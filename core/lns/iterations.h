@@ -179,9 +179,9 @@ class Iterations {
 
   /// Chooses what to try next, by recent success.
   Iteration choose();
-  /// From now on, iterations smooth one robot after the other, beginning with the best plan, until none of
-  /// them gains by it.
-  void smooth_all();
+  /// Goes back to the best plan, from which iterations smooth one robot after the other, the most delayed one
+  /// first, until none of them gains by it.
+  void begin_smoothing();
   /// Plans the neighbourhood again, in a workspace with the incumbent at the time of choose(). May run on any
   /// thread.
   void run(Iteration& iteration, Workspace& workspace) const;
@@ -197,10 +197,9 @@ class Iterations {
   BestPlan& best() { return best_; }
 
  private:
-  bool is_late() const;
   double most_loss() const;
   std::size_t choose_delayed(const DelayedChoice& choice);
-  std::optional<std::size_t> next_to_smooth();
+  std::optional<std::size_t> next_smoothed();
   void learn(const Iteration& iteration);
   bool adopt(Iteration& iteration, Workspace& workspace);
   void stray();
@@ -218,10 +217,12 @@ class Iterations {
   DelayedChoice smoothed_robots_;
   std::int64_t vain_ = 0;
   std::int64_t searches_ = 0;  // iterations with a search
+  bool is_late_ = false;       // much is smoothed from now on
   std::int64_t straying_ = 0;  // iterations with more and more loss
   bool smooths_all_ = false;
-  std::size_t next_to_smooth_ = 0;    // position in planned()
-  std::size_t smoothed_in_vain_ = 0;  // iterations without a search since one of them gained
+  std::vector<std::size_t> smoothing_order_;  // robots
+  std::size_t smoothing_position_ = 0;        // in the order, from its begin again at its end
+  std::size_t smoothed_in_vain_ = 0;          // iterations without a search since one of them gained
 };
 
 }  // namespace fleetplan::core

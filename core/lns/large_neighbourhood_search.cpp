@@ -76,7 +76,7 @@ class LargeNeighbourhoodSearch {
     if (is_short_of_memory()) workspaces_.release_others();
     iterations_.return_to_best();
     workspaces_.update_callers_state({});
-    result_.cut_off = result_.cut_off || is_timed_;
+    result_.cut_off = result_.cut_off || time_began_smoothing_;
     return result_;
   }
 
@@ -170,7 +170,7 @@ class LargeNeighbourhoodSearch {
       is_over_ = true;
     }
     if (is_over_) return std::nullopt;
-    smooth_all_if_due();
+    begin_smoothing_if_due();
     workspace.update();
     Step step;
     if (iterations_.vain() >= kVainIterations)
@@ -184,11 +184,11 @@ class LargeNeighbourhoodSearch {
     return step;
   }
 
-  void smooth_all_if_due() {
-    if (smooths_all_ || !incumbent_.may_smooth()) return;
-    is_timed_ = time_to_smooth_.met();
-    smooths_all_ = is_timed_ || iterations_left_ <= iterations_to_smooth_;
-    if (smooths_all_) iterations_.smooth_all();
+  void begin_smoothing_if_due() {
+    if (has_begun_smoothing_ || !incumbent_.may_smooth()) return;
+    time_began_smoothing_ = time_to_smooth_.is_over();
+    has_begun_smoothing_ = time_began_smoothing_ || iterations_left_ <= iterations_to_smooth_;
+    if (has_begun_smoothing_) iterations_.begin_smoothing();
   }
 
   void run(Step& step, Workspace& workspace) const {
@@ -242,8 +242,8 @@ class LargeNeighbourhoodSearch {
   Executor& executor_;
   const StopCondition& stop_;
   const StopCondition time_to_smooth_;
-  bool is_timed_ = false;  // the time has decided when robots are smoothed
-  bool smooths_all_ = false;
+  bool has_begun_smoothing_ = false;
+  bool time_began_smoothing_ = false;  // not the number of iterations
   std::int64_t iterations_left_ = 0;
   std::int64_t iterations_to_smooth_ = 0;
   LnsResult result_;

@@ -16,7 +16,7 @@ namespace fleetplan::core {
 struct LnsResult {
   std::int64_t improvements = 0;  // times that the plan became better
   std::int64_t expansions = 0;    // labels expanded
-  bool cut_off = false;           // the stop condition or the executor ended it, or the time chose its end
+  bool cut_off = false;           // the stop condition or the executor ended it, or the time began its end
   bool exhausted = false;         // nothing is left to try: no robot can become cheaper
 };
 
@@ -34,20 +34,21 @@ using BeforeRound = std::function<void(const LnsResult& so_far)>;
 ///    out of local optima (threshold accepting; Dueck and Scheuer, 1990). The best plan is kept (see
 ///    incumbent.h).
 ///
-/// Success is measured per expansion, not per second. The search ends when `stop` is met, after the options'
-/// max_iterations, or when nothing is left to try: when the objective is equal to its lower bound, or no
-/// delayed robot has a cheaper path even if it is alone with the robots that stay. That is tested, robot by
-/// robot, while iterations bring nothing (see iterations.h). Only robots of `movers` that have a trajectory
-/// are planned again; `bounds` has their lower bounds. All other robots keep their trajectories, or stay at
-/// their starts.
+/// Success is measured per expansion, not per second. In the last tenth of the time, or of the options'
+/// max_iterations, iterations smooth one robot after the other, without searches. The search ends when `stop`
+/// is met, after the options' max_iterations, or when nothing is left to try: when the objective is equal to
+/// its lower bound, or no delayed robot has a cheaper path even if it is alone with the robots that stay.
+/// That is tested, robot by robot, while iterations bring nothing (see iterations.h). Only robots of `movers`
+/// that have a trajectory are planned again; `bounds` has their lower bounds. All other robots keep their
+/// trajectories, or stay at their starts.
 ///
 /// A few iterations overlap (see pipeline.h), on any number of threads of the executor: each begins with the
 /// incumbent after the iteration a fixed number before it. Changes are accepted in order, except those that
 /// conflict with a change accepted meanwhile. So the number of threads changes only the speed. The executor
-/// may make the search wait, which changes nothing either, or end it (see Executor::may_improve). Rounds are
-/// a fixed number of iterations; at the end of one, threads wait for each other. After some iterations for
-/// each robot, and after more of them again, or sooner if nothing else is left, vertices get more neighbours
-/// (WorkspacePool::add_moves).
+/// may make the search wait, which takes time and changes nothing else, or end it (see
+/// Executor::may_improve). Rounds are a fixed number of iterations; at the end of one, threads wait for each
+/// other. After some iterations for each robot, and after more of them again, or sooner if nothing else is
+/// left, vertices get more neighbours (WorkspacePool::add_moves).
 LnsResult large_neighbourhood_search(PlanState& state, const std::vector<std::size_t>& movers,
                                      const TautPathBounds& bounds, Random& random, Executor& executor,
                                      const StopCondition& stop, const BeforeRound& before_round = nullptr);

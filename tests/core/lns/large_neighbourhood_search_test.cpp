@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -231,6 +232,32 @@ TEST(LargeNeighbourhoodSearch, AsksBeforeEveryStepOfTheCallerWhetherToGoOn) {
   EXPECT_TRUE(improved(7).cut_off);
   EXPECT_GT(improved(7).expansions, 0) << "results so far count";
   EXPECT_EQ(improved(0).expansions, 0);
+}
+
+TEST(LargeNeighbourhoodSearch, SmoothsInTheLastTenthOfIterations) {
+  const auto expansions = [](int count, bool smoothing) {
+    PlanOptions options = iterations(count);
+    options.smoothing = smoothing;
+    Planning p(OccupancyGrid(10, 10, 1.0), roundabout(), options);
+    const auto movers = plan_first_solution(p);
+    return large_neighbourhood_search(p.state, movers, bounds_of(p), p.random, p.callers_thread, p.never)
+        .expansions;
+  };
+  EXPECT_GT(expansions(10, false), expansions(9, false));
+  EXPECT_EQ(expansions(10, true), expansions(9, true)) << "the tenth iteration searches nothing";
+}
+
+TEST(LargeNeighbourhoodSearch, SaysThatTheTimeBeganToSmooth) {
+  // Time that is over, but for a thread that has waited for the CPU.
+  const auto late = StopCondition(StopCondition::Clock::now() - std::chrono::seconds(1));
+  const StopCondition patient = late.with_cpu_time(std::chrono::hours(1));
+  Planning p(OccupancyGrid(10, 10, 1.0), roundabout(), iterations(3));
+  const auto movers = plan_first_solution(p);
+  const LnsResult result =
+      large_neighbourhood_search(p.state, movers, bounds_of(p), p.random, p.callers_thread, patient);
+  EXPECT_EQ(result.expansions, 0);
+  EXPECT_TRUE(result.cut_off);
+  EXPECT_FALSE(result.exhausted);
 }
 
 TEST_P(LnsRandomFleets, NeverMakesAPlanWorseOrUnsafe) {
