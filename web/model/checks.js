@@ -1,6 +1,6 @@
 // The service's check (POST /v1/validate): of an opened or edited request, and its violations in words. No DOM; the service is passed in.
 
-import { goalsOf, lastGoalOf, lastGoalPlace } from "./goals.js";
+import { alternativesOf, goalsOf, lastGoalOf, lastGoalPlace } from "./goals.js";
 import { latestOnly } from "./latest.js";
 import { robotsOf } from "./listed.js";
 import { Follower } from "./motion.js";
@@ -57,20 +57,23 @@ export function standingAtStarts(request) {
 }
 
 /**
- * The plan file that checks the last goals: the robots with goals stand there with their last radii, and nothing
- * moves; null if there are none.
+ * The plan file that checks the last goals: the robots with one stand there with their last radii, and nothing moves;
+ * null if there are none. A goal that may be at one of several poses is at none of them yet.
  */
 export function standingAtGoals(request) {
   const { obstacles: _, ...still } = standingAtStarts(request);
-  const robots = robotsOf(request).filter((robot) => lastGoalOf(robot) !== undefined);
+  const hasPose = (goal) => goal !== undefined && alternativesOf(goal).length === 0;
+  const robots = robotsOf(request).filter((robot) => hasPose(lastGoalOf(robot)));
   if (robots.length === 0) return null;
   return { ...still, robots: robots.map(standingAtGoal) };
 }
 
-function standingAtGoal({ goals: _, committed: __, previous: ___, ...robot }, index, all) {
-  const { service: ____, not_before: _____, radius_after: ______, ...goal } = lastGoalOf(all[index]);
-  const radius = goalsOf(all[index]).findLast((each) => each?.radius_after !== undefined)?.radius_after;
-  return { ...robot, ...(radius === undefined ? {} : { radius }), start: goal, goal };
+function standingAtGoal(robot) {
+  const { goals: _, committed: __, previous: ___, ...rest } = robot;
+  const { x, y, theta } = lastGoalOf(robot);
+  const pose = theta === undefined ? { x, y } : { x, y, theta };
+  const radius = goalsOf(robot).findLast((each) => each?.radius_after !== undefined)?.radius_after;
+  return { ...rest, ...(radius === undefined ? {} : { radius }), start: pose, goal: pose };
 }
 
 /** The errors, [{pointer, detail}], for the violations of robots standing at their "start" or "goal". */

@@ -105,7 +105,13 @@ test("a robot in the way is told to make way, and one that is urgent when it is 
     await page.selectOption("#edited-robot", "0");
     await page.getByLabel("Weight").fill("3");
     await page.click("#goals summary");
+    const atGoals = page.waitForResponse(
+      (response) =>
+        response.url().endsWith("/v1/validate") &&
+        response.request().postData()?.includes('"start":{"x":8.5'),
+    );
     await page.locator("#goals-list").getByLabel("Due").fill("2");
+    assert.equal((await atGoals).status(), 200, "the goals are checked");
     const { robots } = await hook(page, "request");
     assert.deepEqual([robots[0].weight, robots[0].goal.due, robots[1].idle], [3, 2, "yield"]);
     const { status, plans } = await pressPlan(page);

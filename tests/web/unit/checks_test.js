@@ -75,6 +75,14 @@ test("robots stand at their last goals with their last radii", () => {
   assert.deepEqual(standing([goals[0], last]), { ...robot, radius: 0.2, start: place, goal: place });
 });
 
+test("only the pose of a goal is a start, and goals at one of several poses are not checked", () => {
+  const pose = { x: 2.5, y: 0.5, theta: 1 };
+  const robot = { id: "a", radius: 0.3, weight: 2, start: { x: 0.5, y: 0.5 } };
+  const request = { robots: [{ ...robot, goal: { ...pose, due: 3, service: 1, not_before: 2 } }] };
+  assert.deepEqual(standingAtGoals(request).robots, [{ ...robot, start: pose, goal: pose }]);
+  assert.equal(standingAtGoals({ robots: [{ ...robot, goal: { any_of: [pose, { ...pose, x: 1 }] } }] }), null);
+});
+
 test("a robot in a wall is reported at its start or goal", () => {
   const violation = { kind: "obstacle_collision", robots: ["c"], distance: 0.1, required: 0.3 };
   const [error] = placementErrors(THREE_ROBOTS, [violation], "start");
