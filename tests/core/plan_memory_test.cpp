@@ -80,7 +80,8 @@ TEST_P(PlanMemory, BoundsEveryPlanAndSaysWhatItLacked) {
   support::ThreadedExecutor executor(3);
   const std::int64_t peak = plan_within(kPlenty, problem, options(), executor).peak;
   int partial = 0;
-  const auto shares = support::kSanitized ? std::vector{2, 32} : std::vector{2, 4, 8, 16, 24, 32, 64};
+  const auto shares =
+      support::kSanitized ? std::vector{2, 16, 32} : std::vector{2, 3, 4, 6, 8, 12, 16, 24, 32, 64};
   for (const int share : shares) {
     const std::int64_t limit = peak / share;
     const Planned planned = plan_within(limit, problem, options(), executor);
