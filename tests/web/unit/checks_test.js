@@ -80,7 +80,10 @@ test("only the pose of a goal is a start, and goals at one of several poses are 
   const robot = { id: "a", radius: 0.3, weight: 2, start: { x: 0.5, y: 0.5 } };
   const request = { robots: [{ ...robot, goal: { ...pose, due: 3, service: 1, not_before: 2 } }] };
   assert.deepEqual(standingAtGoals(request).robots, [{ ...robot, start: pose, goal: pose }]);
-  assert.equal(standingAtGoals({ robots: [{ ...robot, goal: { any_of: [pose, { ...pose, x: 1 }] } }] }), null);
+  assert.equal(
+    standingAtGoals({ robots: [{ ...robot, goal: { any_of: [pose, { ...pose, x: 1 }] } }] }),
+    null,
+  );
 });
 
 test("a robot in a wall is reported at its start or goal", () => {
