@@ -17,8 +17,10 @@
 #include <utility>
 
 #include "api/response/draw_plan.h"
+#include "core/runtime/executor.h"
 #include "core/runtime/stop_condition.h"
 #include "server/http/http_library.h"
+#include "server/jobs/workers.h"
 #include "server/service/service.h"
 
 namespace fleetplan::server {
@@ -88,6 +90,21 @@ struct RequestCommand {
   std::string svg;            // picture of the plan; empty: none
   std::string png;            // picture of the plan; empty: none
   bool quiet = false;         // shows no progress
+  Settings settings;          // the workers and the limits
+};
+
+/// Runs the tasks of the only job on all workers.
+class AllWorkers : public core::Executor {
+ public:
+  explicit AllWorkers(int workers) : helpers_(static_cast<std::size_t>(workers)) {
+    helpers_.set_computing(1);
+  }
+  void run_on(std::size_t threads, std::size_t count, const Task& task) override {
+    helpers_.run(threads, count, task);
+  }
+
+ private:
+  Helpers helpers_;
 };
 
 /// The most time for one picture: more than the largest maps and plans take.
@@ -197,7 +214,10 @@ int answer_request(const RequestCommand& command, const Streams& streams) {
   if (!body) return fail(streams, kBadInput, body.failure().line);
   Pictures pictures(command);
   api::RequestContext context;
+  AllWorkers workers(command.settings.workers);
   context.request_id = "command-line";
+  context.limits = command.settings.limits;
+  context.executor = &workers;
   context.answered = [&](const core::Problem& problem, const core::Plan& plan) {
     pictures.draw(problem, plan);
   };
@@ -261,7 +281,7 @@ int show_examples(const std::string& name, const Service& service, const Streams
   return kSolved;
 }
 
-void add_commands(CLI::App& app, Arguments& arguments) {
+void add_commands(CLI::App& app, std::string_view word, Arguments& arguments) {
   RequestCommand& request = arguments.request;
   for (const Command& command : kCommands) {
     CLI::App* sub = app.add_subcommand(std::string(command.word), std::string(command.summary));
@@ -269,6 +289,7 @@ void add_commands(CLI::App& app, Arguments& arguments) {
         ->capture_default_str();
     sub->add_option("-o,--output", request.output, "File of the answer instead of the standard output");
     sub->add_flag("-q,--quiet", request.quiet, "Show no progress on a terminal");
+    if (command.word == word) add_job_flags(*sub, request.settings);  // not more: all read the environment
     if (command.word != "plan") continue;
     sub->add_option("--svg", request.svg, "File of a picture of the plan, SVG");
     sub->add_option("--png", request.png, "File of a picture of the plan, PNG");
@@ -300,13 +321,19 @@ std::optional<int> run_command(std::vector<std::string> arguments,
       "Without a command, or with `serve`, it serves over HTTP.\nExit codes: 0 solved or valid, 2 partial or "
       "not valid, 3 no robot has a plan, 64 bad input,\n1 anything else.");
   Arguments parsed;
-  add_commands(app, parsed);
+  add_commands(app, word, parsed);
   std::reverse(arguments.begin(), arguments.end());  // the order that CLI11 expects
   try {
     app.parse(std::move(arguments));
   } catch (const CLI::ParseError& error) {
     const int code = app.exit(error, streams.out, streams.err);
     return code == 0 ? kSolved : kBadInput;
+  }
+  if (command != kCommands.end()) {
+    const CLI::App& sub = *app.get_subcommand(word);
+    auto fault = ignored_environment(sub);
+    if (!fault) fault = settle_job_flags(sub, parsed.request.settings);
+    if (fault) return fail(streams, kBadInput, *fault);
   }
   if (word == "examples") return show_examples(parsed.example, make_service(), streams);
   if (word == "map2request") return map_to_request(parsed.map, parsed.robots, parsed.request.output, streams);

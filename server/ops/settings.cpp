@@ -25,12 +25,12 @@ namespace fleetplan::server {
 namespace {
 
 constexpr std::size_t kQueuePerWorker = 4;
-constexpr std::uint64_t kLeastPlanMemory = 1 << 20;
-constexpr std::uint64_t kLeastUnsent = 1 << 20;
+constexpr std::size_t kMiB = 1 << 20;
 constexpr std::int64_t kMaxMs = 86'400'000;        // a day
 constexpr std::size_t kMostItems = 1'000'000'000;  // the most items of a request
 
 constexpr std::string_view kEnvironmentPrefix = "FLEETPLAN_";
+constexpr const char* kDefaultBudget = "default-budget-ms";
 
 /// Applies an item of a configuration file. Throws an exception of CLI11 when the value is not valid for the
 /// option.
@@ -74,6 +74,34 @@ std::string environment_name(std::string flag) {
   return std::string(kEnvironmentPrefix) + flag;
 }
 
+template <typename T>
+CLI::Option* add_flag(CLI::App& app, const std::string& flag, T& value, const std::string& description) {
+  return app.add_option("--" + flag, value, description)
+      ->envname(environment_name(flag))
+      ->capture_default_str();
+}
+
+template <typename T>
+CLI::Option* add_number(CLI::App& app, const std::string& flag, T& value, T smallest, T largest,
+                        const std::string& description) {
+  return add_flag(app, flag, value, description)->check(CLI::Range(smallest, largest));
+}
+
+/// A number of bytes; `range` says in words what it may be.
+CLI::Option* add_size(CLI::App& app, const std::string& flag, std::size_t& bytes, std::size_t least,
+                      const std::string& range, const std::string& shown_default,
+                      const std::string& description) {
+  constexpr std::size_t kMost = std::size_t{1} << 40;
+  const auto in_range = [least, range](const std::string& text) {
+    const std::uint64_t value = std::stoull(text);
+    return value < least || value > kMost ? "must be " + range : std::string();
+  };
+  return add_flag(app, flag, bytes, description + "; accepts KiB, MiB and GiB")
+      ->transform(CLI::AsSizeValue(false))
+      ->check(CLI::Validator(in_range, ""))
+      ->default_str(shown_default);
+}
+
 /// Returns the names of all environment variables that begin like those of settings.
 std::vector<std::string> prefixed_variables() {
   std::vector<std::string> names;
@@ -91,11 +119,14 @@ class Flags {
     app_.set_version_flag("--version", std::string("fleetplan ") + kVersion);
     app_.get_formatter()->column_width(36);
     app_.footer("`fleetplan help` lists the commands that answer requests from files, without a server.");
-    settings_.workers = cpus_granted();
     settings_.web_root = default_web_root().string();
     add_serving();
     add_access();
-    add_limits();
+    add_job_flags(app_, settings_);
+    add_size(app_, "map-cache", settings_.map_cache, 0, "at most 1 TiB", "128MiB",
+             "Memory of maps that are kept for later requests, in bytes, 0 for none");
+    add_size(app_, "max-unsent", settings_.max_unsent, kMiB, "1 MiB to 1 TiB", "64MiB",
+             "Memory of answers that clients have not accepted yet, in bytes");
     add_times();
     app_.add_flag("--healthcheck", settings_.healthcheck,
                   "Check whether the service with this host and these ports is alive: exit code 0, or 1")
@@ -114,7 +145,7 @@ class Flags {
       const int code = app_.exit(error, text, text);
       return SettingsExit{code == 0 ? 0 : 2, text.str()};
     }
-    if (const auto ignored = ignored_environment()) return bad(*ignored);
+    if (const auto ignored = ignored_environment(app_)) return bad(*ignored);
     if (config_option_->count() > 0) {
       if (const auto fault = apply_config_file(app_, config_)) return bad(*fault);
     }
@@ -122,17 +153,6 @@ class Flags {
   }
 
  private:
-  /// Returns the fault of a bad value from the environment, which newer versions of CLI11 silently ignore.
-  std::optional<std::string> ignored_environment() const {
-    for (const CLI::Option* option : app_.get_options()) {
-      const char* value =
-          option->get_envname().empty() ? nullptr : std::getenv(option->get_envname().c_str());
-      if (value == nullptr || *value == '\0' || option->count() > 0) continue;
-      return option->get_envname() + ": '" + value + "' is not a valid value for " + option->get_name();
-    }
-    return std::nullopt;
-  }
-
   /// Returns the variables that are named like settings, but are none: most probably misspelt.
   std::vector<std::string> unknown_environment() const {
     std::vector<std::string> unknown = prefixed_variables();
@@ -142,28 +162,19 @@ class Flags {
 
   template <typename T>
   CLI::Option* add(const std::string& flag, T& value, const std::string& description) {
-    return app_.add_option("--" + flag, value, description)
-        ->envname(environment_name(flag))
-        ->capture_default_str();
-  }
-
-  template <typename T>
-  CLI::Option* add_number(const std::string& flag, T& value, T smallest, T largest,
-                          const std::string& description) {
-    return add(flag, value, description)->check(CLI::Range(smallest, largest));
+    return add_flag(app_, flag, value, description);
   }
 
   void add_serving() {
     add("host", settings_.host, "Address to listen on");
-    add_number("port", settings_.port, 0, 65535, "Port to listen on, 0 for any free one");
-    admin_ = add_number("admin-port", admin_port_, 0, 65535,
+    add_number(app_, "port", settings_.port, 0, 65535, "Port to listen on, 0 for any free one");
+    admin_ = add_number(app_, "admin-port", admin_port_, 0, 65535,
                         "Separate port for health, readiness and metrics, 0 for any free one")
                  ->default_str("off");
-    add_number("workers", settings_.workers, 1, 1024,
-               "Planning threads, by default the CPUs granted; idle ones help with anytime plans");
-    queue_ = add_number<std::size_t>("queue", settings_.queue, 0, 100'000, "Jobs that may wait for a worker")
-                 ->default_str("4 for each worker");
-    add_number<std::size_t>("connections", settings_.connections, 1, 65'536,
+    queue_ =
+        add_number<std::size_t>(app_, "queue", settings_.queue, 0, 100'000, "Jobs that may wait for a worker")
+            ->default_str("4 for each worker");
+    add_number<std::size_t>(app_, "connections", settings_.connections, 1, 65'536,
                             "Requests served at a time; four times as many connections may be open");
     add("log-level", settings_.log_level, "What to log")
         ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "critical", "off"}));
@@ -192,80 +203,25 @@ class Flags {
         ->default_str("none");
   }
 
-  void add_limits() {
-    api::Limits& limits = settings_.limits;
-    max_body_ = limits.max_body;
-    add("max-body", max_body_, "Largest body in bytes after decompression; accepts KiB, MiB and GiB")
-        ->transform(CLI::AsSizeValue(false))
-        ->default_str("32MiB");
-    max_plan_memory_ = limits.max_plan_memory;
-    add("max-plan-memory", max_plan_memory_,
-        "Most memory of a plan in bytes, from the parsed body to the answer; accepts KiB, MiB and GiB")
-        ->transform(CLI::AsSizeValue(false))
-        ->default_str("256MiB");
-    map_cache_ = settings_.map_cache;
-    add("map-cache", map_cache_,
-        "Memory of maps that are kept for later requests, in bytes, 0 for none; accepts KiB, MiB and GiB")
-        ->transform(CLI::AsSizeValue(false))
-        ->default_str("128MiB");
-    max_unsent_ = settings_.max_unsent;
-    add("max-unsent", max_unsent_,
-        "Memory of answers that clients have not accepted yet, in bytes; accepts KiB, MiB and GiB")
-        ->transform(CLI::AsSizeValue(false))
-        ->default_str("64MiB");
-    add_number<std::int64_t>("max-cells", limits.max_cells, 1, 1'000'000'000, "Most cells of a map");
-    add_number<std::size_t>("max-robots", limits.max_robots, 1, 1'000'000, "Most robots of a request");
-    add_number<std::size_t>("max-goals", limits.max_goals, 1, kMostItems, "Most goals in lists of a request");
-    add_number<std::size_t>("max-actions", limits.max_actions, 1, kMostItems,
-                            "Most committed and previous actions of a request");
-    add_number<std::size_t>("max-obstacles", limits.max_obstacles, 1, 1'000'000,
-                            "Most moving obstacles of a request");
-    add_number<std::size_t>("max-obstacle-entries", limits.max_obstacle_entries, 1, kMostItems,
-                            "Most entries of the motion of all obstacles");
-    add_number<std::size_t>("max-zones", limits.max_zones, 1, 1'000'000, "Most zones of a request");
-    add_number<std::size_t>("max-zone-corners", limits.max_zone_corners, 3, kMostItems,
-                            "Most corners of the polygons of all zones");
-    add_number("max-depth", limits.max_depth, 4, 512, "Deepest nesting of the JSON");
-  }
-
   void add_times() {
-    api::Limits& limits = settings_.limits;
-    default_budget_ = add_number<std::int64_t>("default-budget-ms", limits.default_budget_ms, 1, kMaxMs,
-                                               "Time for a plan whose request sets none");
-    add_number<std::int64_t>("max-budget-ms", limits.max_budget_ms, 1, kMaxMs, "Longest time for a plan");
-    add_number<std::int64_t>("idle-timeout-ms", idle_timeout_ms_, 1, kMaxMs,
+    add_number<std::int64_t>(app_, "idle-timeout-ms", idle_timeout_ms_, 1, kMaxMs,
                              "An idle connection is closed after this");
     add_number<std::int64_t>(
-        "read-timeout-ms", read_timeout_ms_, 1, kMaxMs,
+        app_, "read-timeout-ms", read_timeout_ms_, 1, kMaxMs,
         "A request's head must arrive within this; its body may pause for as long and fall "
         "as far behind 100 kB/s");
-    add_number<std::int64_t>("drain-ms", drain_ms_, 0, kMaxMs, "Time for running plans after SIGTERM");
-    add_number<std::int64_t>("drain-delay-ms", drain_delay_ms_, 0, kMaxMs,
+    add_number<std::int64_t>(app_, "drain-ms", drain_ms_, 0, kMaxMs, "Time for running plans after SIGTERM");
+    add_number<std::int64_t>(app_, "drain-delay-ms", drain_delay_ms_, 0, kMaxMs,
                              "Time before that, not ready but serving, so that load balancers notice");
   }
 
   std::variant<Settings, SettingsExit> finish() {
-    if (max_body_ < 1 || max_body_ > (std::uint64_t{1} << 40))
-      return bad("--max-body must be 1 byte to 1 TiB");
-    if (max_plan_memory_ < kLeastPlanMemory || max_plan_memory_ > (std::uint64_t{1} << 40))
-      return bad("--max-plan-memory must be 1 MiB to 1 TiB");
-    if (map_cache_ > (std::uint64_t{1} << 40)) return bad("--map-cache must be at most 1 TiB");
-    if (max_unsent_ < kLeastUnsent || max_unsent_ > (std::uint64_t{1} << 40))
-      return bad("--max-unsent must be 1 MiB to 1 TiB");
     std::error_code ignored;
     if (!settings_.web_root.empty() && !std::filesystem::is_directory(settings_.web_root, ignored)) {
       return bad("--web-root: '" + settings_.web_root + "' is not a folder");
     }
     if (const auto fault = finish_access()) return bad(*fault);
-    api::Limits& limits = settings_.limits;
-    if (default_budget_->count() > 0 && limits.default_budget_ms > limits.max_budget_ms) {
-      return bad("--default-budget-ms is greater than --max-budget-ms");
-    }
-    limits.default_budget_ms = std::min(limits.default_budget_ms, limits.max_budget_ms);
-    limits.max_body = max_body_;
-    limits.max_plan_memory = max_plan_memory_;
-    settings_.map_cache = map_cache_;
-    settings_.max_unsent = max_unsent_;
+    if (const auto fault = settle_job_flags(app_, settings_)) return bad(*fault);
     if (queue_->count() == 0) settings_.queue = kQueuePerWorker * static_cast<std::size_t>(settings_.workers);
     settings_.idle_timeout = std::chrono::milliseconds(idle_timeout_ms_);
     settings_.read_timeout = std::chrono::milliseconds(read_timeout_ms_);
@@ -303,10 +259,6 @@ class Flags {
 
   CLI::App app_;
   Settings settings_;
-  std::uint64_t max_body_ = 0;
-  std::uint64_t max_plan_memory_ = 0;
-  std::uint64_t map_cache_ = 0;
-  std::uint64_t max_unsent_ = 0;
   std::int64_t idle_timeout_ms_ = Settings{}.idle_timeout.count();
   std::int64_t read_timeout_ms_ = Settings{}.read_timeout.count();
   std::int64_t drain_ms_ = Settings{}.drain.count();
@@ -319,10 +271,56 @@ class Flags {
   CLI::Option* config_option_ = nullptr;
   CLI::Option* admin_ = nullptr;
   CLI::Option* queue_ = nullptr;
-  CLI::Option* default_budget_ = nullptr;
 };
 
 }  // namespace
+
+std::optional<std::string> ignored_environment(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options()) {
+    const char* value = option->get_envname().empty() ? nullptr : std::getenv(option->get_envname().c_str());
+    if (value == nullptr || *value == '\0' || option->count() > 0) continue;
+    return option->get_envname() + ": '" + value + "' is not a valid value for " + option->get_name();
+  }
+  return std::nullopt;
+}
+
+void add_job_flags(CLI::App& app, Settings& settings) {
+  settings.workers = cpus_granted();
+  api::Limits& limits = settings.limits;
+  add_number(app, "workers", settings.workers, 1, 1024,
+             "Planning threads, by default the CPUs granted; idle ones help with anytime plans");
+  add_size(app, "max-body", limits.max_body, 1, "1 byte to 1 TiB", "32MiB",
+           "Largest body in bytes after decompression");
+  add_size(app, "max-plan-memory", limits.max_plan_memory, kMiB, "1 MiB to 1 TiB", "256MiB",
+           "Most memory of a plan in bytes, from the parsed body to the answer");
+  add_number<std::int64_t>(app, "max-cells", limits.max_cells, 1, 1'000'000'000, "Most cells of a map");
+  add_number<std::size_t>(app, "max-robots", limits.max_robots, 1, 1'000'000, "Most robots of a request");
+  add_number<std::size_t>(app, "max-goals", limits.max_goals, 1, kMostItems,
+                          "Most goals in lists of a request");
+  add_number<std::size_t>(app, "max-actions", limits.max_actions, 1, kMostItems,
+                          "Most committed and previous actions of a request");
+  add_number<std::size_t>(app, "max-obstacles", limits.max_obstacles, 1, 1'000'000,
+                          "Most moving obstacles of a request");
+  add_number<std::size_t>(app, "max-obstacle-entries", limits.max_obstacle_entries, 1, kMostItems,
+                          "Most entries of the motion of all obstacles");
+  add_number<std::size_t>(app, "max-zones", limits.max_zones, 1, 1'000'000, "Most zones of a request");
+  add_number<std::size_t>(app, "max-zone-corners", limits.max_zone_corners, 3, kMostItems,
+                          "Most corners of the polygons of all zones");
+  add_number(app, "max-depth", limits.max_depth, 4, 512, "Deepest nesting of the JSON");
+  add_number<std::int64_t>(app, kDefaultBudget, limits.default_budget_ms, 1, kMaxMs,
+                           "Time for a plan whose request sets none");
+  add_number<std::int64_t>(app, "max-budget-ms", limits.max_budget_ms, 1, kMaxMs, "Longest time for a plan");
+}
+
+std::optional<std::string> settle_job_flags(const CLI::App& app, Settings& settings) {
+  api::Limits& limits = settings.limits;
+  const bool sets_default = app.get_option("--" + std::string(kDefaultBudget))->count() > 0;
+  if (sets_default && limits.default_budget_ms > limits.max_budget_ms) {
+    return "--default-budget-ms is greater than --max-budget-ms";
+  }
+  limits.default_budget_ms = std::min(limits.default_budget_ms, limits.max_budget_ms);
+  return std::nullopt;
+}
 
 std::variant<Settings, SettingsExit> parse_settings(std::vector<std::string> arguments) {
   return Flags().parse(std::move(arguments));

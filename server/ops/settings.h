@@ -10,6 +10,10 @@
 #include "api/request/limits.h"
 #include "server/http/request/access.h"
 
+namespace CLI {
+class App;
+}
+
 namespace fleetplan::server {
 
 /// Everything an operator may set. The defaults here are those of the flags.
@@ -46,5 +50,13 @@ struct SettingsExit {
 /// Returns the settings from flags (without the program's name), the environment (`FLEETPLAN_` and the flag
 /// in capitals; empty is not set), the file of --config and defaults, in this order of precedence.
 std::variant<Settings, SettingsExit> parse_settings(std::vector<std::string> arguments);
+
+/// Adds the flags that commands without a server have, too, with their environment variables: the workers and
+/// the limits of a request. `settings` outlives `app`.
+void add_job_flags(CLI::App& app, Settings& settings);
+/// Makes these settings agree once `app` has parsed them. Returns the fault if they cannot.
+std::optional<std::string> settle_job_flags(const CLI::App& app, Settings& settings);
+/// Returns the fault of a bad value from the environment, which newer versions of CLI11 silently ignore.
+std::optional<std::string> ignored_environment(const CLI::App& app);
 
 }  // namespace fleetplan::server

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "server/service/service.h"
+#include "tests/server/support/environment.h"
 #include "tests/support/temporary_file.h"
 #include "tests/support/temporary_folder.h"
 
@@ -152,11 +153,37 @@ TEST(Commands, PrintTheExamplesThatThePageOffers) {
   EXPECT_EQ(run({"plan"}, run({"examples", "corridor-swap"}).out).code, kSolved);
 }
 
+TEST(Commands, TakeTheLimitsOfTheServiceFromFlagsAndTheEnvironment) {
+  EXPECT_THAT(run({"plan", "--max-robots", "1"}, request(".......")).err, HasSubstr("/robots"));
+  const Environment robots("FLEETPLAN_MAX_ROBOTS", "1");
+  EXPECT_EQ(run({"plan"}, request(".......")).code, kBadInput);
+  EXPECT_EQ(run({"plan", "--max-robots=2", "--workers=3"}, request(".......")).code, kSolved);
+  Json improved = Json::parse(request("......."));
+  improved["options"] = {{"mode", "anytime"}, {"time_budget_ms", 1000}, {"max_iterations", 1}};
+  const auto warnings = [&](const char* most) {
+    const auto outcome = run({"plan", "--max-robots=2", "--max-budget-ms", most}, improved.dump());
+    return Json::parse(outcome.out)["warnings"].size();
+  };
+  EXPECT_EQ(warnings("999"), warnings("1000") + 1);  // that the budget was clamped
+}
+
+TEST(Commands, RejectLimitsThatTheServiceRejects) {
+  EXPECT_THAT(run({"plan", "--max-plan-memory=1KiB"}, request(".......")).err, HasSubstr("1 MiB to 1 TiB"));
+  EXPECT_EQ(run({"plan", "--max-plan-memory=1KiB"}, request(".......")).code, kBadInput);
+  EXPECT_EQ(run({"plan", "--default-budget-ms=200000"}, request(".......")).code, kBadInput);
+  EXPECT_EQ(run({"matrix", "--workers=0"}).code, kBadInput);
+  const Environment workers("FLEETPLAN_WORKERS", "many");
+  const Outcome outcome = run({"plan"}, request("......."));
+  EXPECT_EQ(outcome.code, kBadInput);
+  EXPECT_THAT(outcome.err, HasSubstr("--workers"));
+}
+
 TEST(Commands, ExplainThemselves) {
   const Outcome help = run({"help"});
   EXPECT_EQ(help.code, kSolved);
   EXPECT_THAT(help.out, AllOf(HasSubstr("validate"), HasSubstr("Exit codes")));
   EXPECT_EQ(run({"plan", "--help"}).code, kSolved);
+  EXPECT_THAT(run({"plan", "--help"}).out, HasSubstr("--max-plan-memory"));
 }
 
 }  // namespace TEST_FILE
