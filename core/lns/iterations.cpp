@@ -252,9 +252,8 @@ constexpr std::size_t kIterationsPerAnyGain = 4;
 /// Searches for each robot until much is smoothed, if not as many as there are robots have been in vain
 /// before: at first, searches gain more.
 constexpr std::int64_t kSearchesPerRobot = 50;
-/// The tries to smooth a path.
+/// The tries to smooth a path until then.
 constexpr int kFewTries = 25;
-constexpr int kManyTries = 100;
 /// A change may make the flowtime longer by this share of the mean delay of the robots, which leads out of
 /// local optima (threshold accepting; Dueck and Scheuer, 1990).
 constexpr double kMostLossShare = 0.2;
@@ -265,17 +264,37 @@ constexpr int kDoublings = 8;
 
 }  // namespace
 
+void SmoothingTurns::begin(std::vector<std::size_t> robots) {
+  robots_ = std::move(robots);
+  position_ = in_vain_ = 0;
+}
+
+std::optional<std::size_t> SmoothingTurns::next(const std::function<bool(std::size_t)>& may_gain) {
+  for (std::size_t k = 0; k < robots_.size(); ++k) {
+    const std::size_t robot = robots_[position_++ % robots_.size()];
+    if (may_gain(robot)) return robot;
+  }
+  robots_.clear();
+  return std::nullopt;
+}
+
+void SmoothingTurns::learn(bool gained) {
+  in_vain_ = gained ? 0 : in_vain_ + 1;
+  if (in_vain_ >= robots_.size()) robots_.clear();
+}
+
 Iteration Iterations::choose() {
   Iteration iteration;
   iteration.version = incumbent_.version();
   const auto robots = static_cast<std::int64_t>(incumbent_.planned().size());
-  is_late_ = is_late_ || smooths_all_ || vain_ >= robots || searches_ >= kSearchesPerRobot * robots;
-  const std::optional<std::size_t> smoothed = next_smoothed();
+  is_late_ = is_late_ || vain_ >= robots || searches_ >= kSearchesPerRobot * robots;
+  const auto may_gain = [&](std::size_t robot) { return exhaustion_.delay(robot) > kLeastDelay; };
+  const std::optional<std::size_t> smoothed = turns_.next(may_gain);
   iteration.parameters = smoothed ? AdaptiveParameters::Choice::smoothing()
                                   : parameters_.choose(random_, is_late_ && incumbent_.may_smooth());
   iteration.options.limits = iteration.parameters.search_limits();
   const bool searches = iteration.options.limits.has_value();
-  iteration.options.tries = searches && !is_late_ ? kFewTries : kManyTries;
+  if (!is_late_) iteration.options.tries = kFewTries;
   if (searches && random_.below(kIterationsPerAnyGain) != 0) iteration.options.min_gain_share = kMinGainShare;
   iteration.seed = random_.seed();
   if (!for_makespan_) iteration.options.most_loss = most_loss();
@@ -294,25 +313,14 @@ Iteration Iterations::choose() {
 void Iterations::begin_smoothing() {
   if (!incumbent_.may_smooth()) return;
   return_to_best();
-  smoothing_order_ = incumbent_.planned();
+  is_late_ = true;
+  std::vector<std::size_t> robots = incumbent_.planned();
   const auto urgency = [&](std::size_t robot) {
     return for_makespan_ ? incumbent_.cost(robot) : exhaustion_.delay(robot);
   };
-  std::stable_sort(smoothing_order_.begin(), smoothing_order_.end(),
+  std::stable_sort(robots.begin(), robots.end(),
                    [&](std::size_t a, std::size_t b) { return urgency(a) > urgency(b); });
-  smooths_all_ = true;
-  smoothing_position_ = smoothed_in_vain_ = 0;
-}
-
-/// The next delayed robot to smooth, if all are; none if none is left.
-std::optional<std::size_t> Iterations::next_smoothed() {
-  const std::size_t count = smoothing_order_.size();
-  for (std::size_t k = 0; smooths_all_ && k < count; ++k) {
-    const std::size_t robot = smoothing_order_[smoothing_position_++ % count];
-    if (exhaustion_.delay(robot) > kLeastDelay) return robot;
-  }
-  smooths_all_ = false;
-  return std::nullopt;
+  turns_.begin(std::move(robots));
 }
 
 double Iterations::most_loss() const {
@@ -340,8 +348,7 @@ void Iterations::run(Iteration& iteration, Workspace& workspace) const {
 bool Iterations::accept(Iteration& iteration, Workspace& workspace) {
   const bool is_best = adopt(iteration, workspace);
   if (!iteration.options.limits) {
-    smoothed_in_vain_ = is_best ? 0 : smoothed_in_vain_ + 1;
-    if (smoothed_in_vain_ >= incumbent_.planned().size()) smooths_all_ = false;
+    turns_.learn(is_best);
     return is_best;
   }
   ++searches_;
@@ -357,7 +364,7 @@ bool Iterations::accept(Iteration& iteration, Workspace& workspace) {
 bool Iterations::adopt(Iteration& iteration, Workspace& workspace) {
   std::optional<Change>& change = iteration.result.change;
   // While all robots are smoothed, no earlier search may lead away from the best plan.
-  const bool may_adopt = change && (!smooths_all_ || change->gain > 0.0);
+  const bool may_adopt = change && (turns_.are_over() || change->gain > 0.0);
   const bool adopted = may_adopt && !is_outdated(iteration, workspace);
   learn(iteration);
   if (!adopted) return false;

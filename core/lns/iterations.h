@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -161,6 +162,23 @@ struct Iteration {
   NeighbourhoodResult result;
 };
 
+/// The turns of robots that are smoothed one after the other, again and again, until none of them gains by
+/// it.
+class SmoothingTurns {
+ public:
+  void begin(std::vector<std::size_t> robots);
+  bool are_over() const { return robots_.empty(); }
+  /// The robot whose turn is next, of those that satisfy `may_gain`; none, and over, if there is none.
+  std::optional<std::size_t> next(const std::function<bool(std::size_t)>& may_gain);
+  /// Records whether a robot has gained in its turn.
+  void learn(bool gained);
+
+ private:
+  std::vector<std::size_t> robots_;  // empty once they are over
+  std::size_t position_ = 0;         // in robots_, from its begin again at its end
+  std::size_t in_vain_ = 0;          // turns since one gained
+};
+
 /// The steps of an iteration: choose, run, accept. While one runs, others may be chosen and accepted.
 class Iterations {
  public:
@@ -199,7 +217,6 @@ class Iterations {
  private:
   double most_loss() const;
   std::size_t choose_delayed(const DelayedChoice& choice);
-  std::optional<std::size_t> next_smoothed();
   void learn(const Iteration& iteration);
   bool adopt(Iteration& iteration, Workspace& workspace);
   void stray();
@@ -219,10 +236,7 @@ class Iterations {
   std::int64_t searches_ = 0;  // iterations with a search
   bool is_late_ = false;       // much is smoothed from now on
   std::int64_t straying_ = 0;  // iterations with more and more loss
-  bool smooths_all_ = false;
-  std::vector<std::size_t> smoothing_order_;  // robots
-  std::size_t smoothing_position_ = 0;        // in the order, from its begin again at its end
-  std::size_t smoothed_in_vain_ = 0;          // iterations without a search since one of them gained
+  SmoothingTurns turns_;
 };
 
 }  // namespace fleetplan::core

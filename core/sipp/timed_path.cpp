@@ -86,7 +86,7 @@ bool TimedPath::set_goals(const Trajectory& trajectory, const std::vector<double
     if (is_same_position(stops_[k - 1].position, stops_[k].position)) return false;
     set_move(stops_[k - 1], stops_[k]);
   }
-  set_least_left(stops_);
+  set_least_left(stops_.size());
   return true;
 }
 
@@ -128,22 +128,29 @@ double TimedPath::served(const Stop& from, const Stop& to, double t, std::vector
   return t;
 }
 
-void TimedPath::set_least_left(std::vector<Stop>& stops) const {
-  double left = 0.0;
-  // Bounded: the stops of one path, and their goals.
-  for (std::size_t k = stops.size(); k-- > 1;) {
-    const Stop& from = stops[k - 1];
-    Stop& to = stops[k];
-    double heading = to.heading;
-    for (std::size_t goal = from.goals_end; goal < to.goals_end; ++goal) {
-      const double heading_there = itinerary_.goals[goal].theta.value_or(heading);
-      left += times_.rotation_time(to.position, heading, heading_there) + itinerary_.goals[goal].service;
-      heading = heading_there;
-    }
-    to.least_left = left;
-    left += preparation(from, to) + to.duration;
+/// Seconds from the arrival at a stop to the end of the path, at least. `before`: the stop before, whose
+/// goals are served; `next`: null at the end.
+double TimedPath::least_left(const Stop& before, const Stop& stop, const Stop* next) const {
+  double left = next != nullptr ? preparation(stop, *next) + next->duration + next->least_left : 0.0;
+  double heading = stop.heading;
+  // Bounded: the goals of one stop.
+  for (std::size_t k = before.goals_end; k < stop.goals_end; ++k) {
+    const Goal& goal = itinerary_.goals[k];
+    const double heading_there = goal.theta.value_or(heading);
+    left += times_.rotation_time(stop.position, heading, heading_there) + goal.service;
+    heading = heading_there;
   }
-  stops.front().least_left = left;
+  return left;
+}
+
+/// Sets what is least left of the first `count` stops; that of the next one, if any, is set.
+void TimedPath::set_least_left(std::size_t count) {
+  // Bounded: the stops of one path.
+  for (std::size_t k = count; k-- > 0;) {
+    Stop& stop = stops_[k];
+    const Stop* next = k + 1 < stops_.size() ? &stops_[k + 1] : nullptr;
+    stop.least_left = least_left(k > 0 ? stops_[k - 1] : stop, stop, next);
+  }
 }
 
 bool TimedPath::is_free(const Position& from, const Position& to) const {
@@ -212,35 +219,56 @@ bool TimedPath::is_sooner(const Stop& tried, const Stop& now) const {
   });
 }
 
-bool TimedPath::try_replace(std::size_t first, std::size_t count, const std::optional<Position>& by,
-                            double bound) {
+/// Times the stops that would come after stop first - 1, in tried_. Returns how many they are; none if that
+/// fails. What most tries fail for is asked before stops are copied.
+std::optional<std::size_t> TimedPath::try_replace(std::size_t first, std::size_t count,
+                                                  const std::optional<Position>& by, double bound) {
   const std::size_t next = first + count;
   const std::size_t inserted = by ? 1 : 0;
-  tried_.assign(stops_.begin(), stops_.begin() + static_cast<std::ptrdiff_t>(first));
+  const std::size_t tried_count = inserted + stops_.size() - next;
+  if (tried_.size() < tried_count) tried_.resize(tried_count);
+  const Stop& from = stops_[first - 1];
   if (by) {
-    if (is_same_position(*by, stops_[first - 1].position) || is_same_position(*by, stops_[next].position)) {
-      return false;
-    }
-    Stop bend;
+    if (is_same_position(*by, from.position) || is_same_position(*by, stops_[next].position)) return {};
+    Stop& bend = tried_.front();
     bend.position = *by;
     bend.reverse = stops_[first].reverse;
-    bend.goals_end = stops_[first - 1].goals_end;
-    tried_.push_back(bend);
+    bend.goals_end = from.goals_end;
+    set_move(from, bend);
   }
-  tried_.insert(tried_.end(), stops_.begin() + static_cast<std::ptrdiff_t>(next), stops_.end());
-  const std::size_t end_of_change = first + inserted;  // the move to this stop is the last one that is new
-  for (std::size_t k = first; k <= end_of_change; ++k) set_move(tried_[k - 1], tried_[k]);
-  set_least_left(tried_);
-  if (tried_[first - 1].arrivals.front().t + tried_[first - 1].least_left >= bound) return false;
-  for (std::size_t k = first; k <= end_of_change; ++k) {
-    if (!is_free(tried_[k - 1].position, tried_[k].position)) return false;
-  }
+  Stop& end = tried_[inserted];  // the move to this stop is the last one that is new
+  end = stops_[next];
+  const Stop& before_end = by ? tried_.front() : from;
+  set_move(before_end, end);
+  end.least_left = least_left(before_end, end, next + 1 < stops_.size() ? &stops_[next + 1] : nullptr);
+  if (by) tried_.front().least_left = least_left(from, tried_.front(), &end);
+  const Stop& to = tried_.front();
+  if (from.arrivals.front().ready + preparation(from, to) + to.duration + to.least_left >= bound) return {};
+  if (!is_free(from.position, to.position)) return {};
+  if (by && !is_free(to.position, end.position)) return {};
   ++timed_count_;
-  if (by) set_safe_intervals(tried_[first - 1], tried_[first], false);
-  for (std::size_t k = first; k < tried_.size(); ++k) {
-    if (!arrive(tried_[k - 1], tried_[k], bound)) return false;
-    if (k > end_of_change && !is_sooner(tried_[k], stops_[k + count - inserted])) return false;
+  if (by) set_safe_intervals(from, tried_.front(), false);
+  // Bounded: the stops of one path.
+  for (std::size_t k = 0; k < tried_count; ++k) {
+    const Stop* now = k > inserted ? &stops_[next + k - inserted] : nullptr;  // of a move that is not new
+    if (now != nullptr) tried_[k] = *now;
+    if (!arrive(k > 0 ? tried_[k - 1] : from, tried_[k], bound)) return {};
+    if (now != nullptr && !is_sooner(tried_[k], *now)) return {};
   }
+  return tried_count;
+}
+
+bool TimedPath::replace(std::size_t first, std::size_t count, const std::optional<Position>& by, double bound,
+                        const Accept& accept) {
+  const auto tried_count = try_replace(first, count, by, bound);
+  if (!tried_count) return false;
+  std::vector<Stop> stops(stops_.begin(), stops_.begin() + static_cast<std::ptrdiff_t>(first));
+  stops.insert(stops.end(), tried_.begin(), tried_.begin() + static_cast<std::ptrdiff_t>(*tried_count));
+  Trajectory tried = trajectory_of(stops);
+  if (!accept(tried)) return false;
+  stops_ = std::move(stops);
+  set_least_left(first);
+  trajectory_ = std::move(tried);
   return true;
 }
 

@@ -4,8 +4,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "core/geometry/position.h"
@@ -28,6 +28,8 @@ namespace fleetplan::core {
 /// when their plan begins; and without a horizon.
 class TimedPath {
  public:
+  using Accept = std::function<bool(const Trajectory&)>;
+
   /// The robot holds no reservation in `table`, or an ignored one. Once `stop` is met, no path is timed. The
   /// arguments outlive this object.
   TimedPath(const Instance& instance, const ReservationTable& table, std::size_t robot,
@@ -46,16 +48,8 @@ class TimedPath {
   /// Replaces `count` stops, from `first` on, which are bends, by at most one. Returns whether it has: the
   /// moves are free of obstacles, the stops that follow are reached sooner, and the trajectory costs less
   /// than `bound` seconds and satisfies `accept`.
-  template <class Accept>
   bool replace(std::size_t first, std::size_t count, const std::optional<Position>& by, double bound,
-               const Accept& accept) {
-    if (!try_replace(first, count, by, bound)) return false;
-    Trajectory tried = trajectory_of(tried_);
-    if (!accept(tried)) return false;
-    std::swap(stops_, tried_);
-    trajectory_ = std::move(tried);
-    return true;
-  }
+               const Accept& accept);
 
   /// The trajectory along the path.
   const Trajectory& trajectory() const { return trajectory_; }
@@ -87,11 +81,13 @@ class TimedPath {
   bool set_stops(const Trajectory& trajectory);
   bool set_goals(const Trajectory& trajectory, const std::vector<double>& arrivals);
   void set_move(const Stop& from, Stop& to) const;
-  void set_least_left(std::vector<Stop>& stops) const;
+  double least_left(const Stop& before, const Stop& stop, const Stop* next) const;
+  void set_least_left(std::size_t count);
   void set_safe_intervals(const Stop& from, Stop& to, bool is_last) const;
   void begin(Stop& stop) const;
 
-  bool try_replace(std::size_t first, std::size_t count, const std::optional<Position>& by, double bound);
+  std::optional<std::size_t> try_replace(std::size_t first, std::size_t count,
+                                         const std::optional<Position>& by, double bound);
   bool is_free(const Position& from, const Position& to) const;
   Footprint footprint(const Stop& stop) const;
   double preparation(const Stop& from, const Stop& to) const;
@@ -108,7 +104,7 @@ class TimedPath {
   const MoveTimes times_;
   const bool may_be_timed_;
   std::vector<Stop> stops_;
-  std::vector<Stop> tried_;
+  std::vector<Stop> tried_;  // of try_replace(); kept for their memory
   Trajectory trajectory_;
   std::int64_t timed_count_ = 0;
 };

@@ -13,17 +13,10 @@
 namespace fleetplan::core {
 namespace TEST_FILE {
 
+using support::box;
 using support::plan_checked;
 using support::robot_at;
 using testing::HasSubstr;
-
-Zone box(Zone::Type type, const Position& low, const Position& high) {
-  Zone zone;
-  zone.id = "box";
-  zone.type = type;
-  zone.polygon = {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
-  return zone;
-}
 
 Zone blocked_box(const Position& low, const Position& high) { return box(Zone::Type::blocked, low, high); }
 

@@ -81,4 +81,13 @@ inline core::Problem make_problem(core::OccupancyGrid grid, std::vector<core::Ro
   throw std::invalid_argument("the robots and the map are not a valid problem");
 }
 
+/// A rectangular zone between two corners.
+inline core::Zone box(core::Zone::Type type, const core::Position& low, const core::Position& high) {
+  core::Zone zone;
+  zone.id = "box";
+  zone.type = type;
+  zone.polygon = {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
+  return zone;
+}
+
 }  // namespace fleetplan::support

@@ -14,6 +14,7 @@
 namespace fleetplan::core {
 namespace TEST_FILE {
 
+using support::box;
 using support::expect_safe;
 using support::robot_at;
 using testing::ElementsAre;
@@ -43,14 +44,6 @@ Robot with_acceleration(Robot robot, double acceleration) {
   robot.linear_deceleration = acceleration;
   robot.angular_acceleration = 2.0;
   return robot;
-}
-
-Zone box(Zone::Type type, const Position& low, const Position& high) {
-  Zone zone;
-  zone.id = "box";
-  zone.type = type;
-  zone.polygon = {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
-  return zone;
 }
 
 Problem with_zone(OccupancyGrid grid, Robot robot, Zone zone) {
