@@ -228,8 +228,9 @@ std::optional<std::size_t> TimedPath::try_replace(std::size_t first, std::size_t
   const std::size_t tried_count = inserted + stops_.size() - next;
   if (tried_.size() < tried_count) tried_.resize(tried_count);
   const Stop& from = stops_[first - 1];
+  if (is_same_position(from.position, by.value_or(stops_[next].position))) return {};
   if (by) {
-    if (is_same_position(*by, from.position) || is_same_position(*by, stops_[next].position)) return {};
+    if (is_same_position(*by, stops_[next].position)) return {};
     Stop& bend = tried_.front();
     bend.position = *by;
     bend.reverse = stops_[first].reverse;

@@ -90,21 +90,26 @@ struct RequestCommand {
   std::string svg;            // picture of the plan; empty: none
   std::string png;            // picture of the plan; empty: none
   bool quiet = false;         // shows no progress
-  Settings settings;          // the workers and the limits
+  int workers = 1;
+  api::Limits limits;
 };
 
-/// Runs the tasks of the only job on all workers.
+/// Runs the tasks of the only job on all workers, whose threads begin with the first tasks.
 class AllWorkers : public core::Executor {
  public:
-  explicit AllWorkers(int workers) : helpers_(static_cast<std::size_t>(workers)) {
-    helpers_.set_computing(1);
-  }
+  explicit AllWorkers(int workers) : workers_(static_cast<std::size_t>(workers)) {}
+
   void run_on(std::size_t threads, std::size_t count, const Task& task) override {
-    helpers_.run(threads, count, task);
+    if (!helpers_) {
+      helpers_.emplace(workers_);
+      helpers_->set_computing(1);
+    }
+    helpers_->run(threads, count, task);
   }
 
  private:
-  Helpers helpers_;
+  const std::size_t workers_;
+  std::optional<Helpers> helpers_;
 };
 
 /// The most time for one picture: more than the largest maps and plans take.
@@ -214,9 +219,9 @@ int answer_request(const RequestCommand& command, const Streams& streams) {
   if (!body) return fail(streams, kBadInput, body.failure().line);
   Pictures pictures(command);
   api::RequestContext context;
-  AllWorkers workers(command.settings.workers);
+  AllWorkers workers(command.workers);
   context.request_id = "command-line";
-  context.limits = command.settings.limits;
+  context.limits = command.limits;
   context.executor = &workers;
   context.answered = [&](const core::Problem& problem, const core::Plan& plan) {
     pictures.draw(problem, plan);
@@ -289,7 +294,10 @@ void add_commands(CLI::App& app, std::string_view word, Arguments& arguments) {
         ->capture_default_str();
     sub->add_option("-o,--output", request.output, "File of the answer instead of the standard output");
     sub->add_flag("-q,--quiet", request.quiet, "Show no progress on a terminal");
-    if (command.word == word) add_job_flags(*sub, request.settings);  // not more: all read the environment
+    if (command.word == word) {  // the flags of others would read the environment, too
+      add_workers_flag(*sub, request.workers);
+      add_limit_flags(*sub, request.limits);
+    }
     if (command.word != "plan") continue;
     sub->add_option("--svg", request.svg, "File of a picture of the plan, SVG");
     sub->add_option("--png", request.png, "File of a picture of the plan, PNG");
@@ -299,6 +307,7 @@ void add_commands(CLI::App& app, std::string_view word, Arguments& arguments) {
   map->add_option("map", arguments.map, "File map.yaml, beside its image")->required();
   map->add_option("--robots", arguments.robots, "Table of the robots, CSV")->required();
   map->add_option("-o,--output", request.output, "File of the request instead of the standard output");
+  if (word == "map2request") add_limit_flags(*map, request.limits);
   app.add_subcommand("examples", "List the example requests, or print one")
       ->add_option("name", arguments.example, "Name of the example");
   app.add_subcommand("serve", "Serve over HTTP, as without a command: fleetplan serve --help");
@@ -329,16 +338,17 @@ std::optional<int> run_command(std::vector<std::string> arguments,
     const int code = app.exit(error, streams.out, streams.err);
     return code == 0 ? kSolved : kBadInput;
   }
-  if (command != kCommands.end()) {
-    const CLI::App& sub = *app.get_subcommand(word);
-    auto fault = ignored_environment(sub);
-    if (!fault) fault = settle_job_flags(sub, parsed.request.settings);
-    if (fault) return fail(streams, kBadInput, *fault);
-  }
   if (word == "examples") return show_examples(parsed.example, make_service(), streams);
-  if (word == "map2request") return map_to_request(parsed.map, parsed.robots, parsed.request.output, streams);
-  parsed.request.endpoint = make_service().*command->endpoint;
-  return answer_request(parsed.request, streams);
+  RequestCommand& request = parsed.request;
+  const CLI::App& sub = *app.get_subcommand(word);
+  auto fault = ignored_environment(sub);
+  if (!fault) fault = settle_limits(sub, request.limits);
+  if (fault) return fail(streams, kBadInput, *fault);
+  if (word == "map2request") {
+    return map_to_request(parsed.map, parsed.robots, request.output, request.limits, streams);
+  }
+  request.endpoint = make_service().*command->endpoint;
+  return answer_request(request, streams);
 }
 
 namespace {

@@ -283,14 +283,14 @@ int refuse(const api::RequestError& error, const RosMapFile& map, const RobotTab
 }  // namespace
 
 int map_to_request(const std::string& yaml, const std::string& robots, const std::string& output,
-                   const Streams& streams) {
+                   const api::Limits& limits, const Streams& streams) {
   const auto map = read_ros_map(yaml, streams.in);
   if (!map) return refuse(map.failure(), streams);
   const auto table = read_robot_table(robots, streams.in);
   if (!table) return refuse(table.failure(), streams);
   const std::string body = request_of(*map, *table);
   core::Work work(core::Work::Bounds{});
-  const auto request = api::parse_request(body, {}, work);
+  const auto request = api::parse_request(body, limits, work);
   if (!request) return refuse(request.failure(), *map, *table, streams);
   for (const std::string& line : map->ignored) streams.err << line << '\n';
   for (const std::string& warning : request->warnings)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <system_error>
 #include <utility>
 
 namespace fleetplan::server {
@@ -24,7 +25,10 @@ struct Helpers::Tasks {
 
 Helpers::Helpers(std::size_t workers) : workers_(workers) {
   // A job's own thread runs tasks as well, so one helper fewer is needed.
-  for (std::size_t i = 1; i < workers_; ++i) threads_.emplace_back([this] { help(); });
+  try {
+    for (std::size_t i = 1; i < workers_; ++i) threads_.emplace_back([this] { help(); });
+  } catch (const std::system_error&) {  // no more threads are granted: those that are there suffice
+  }
 }
 
 Helpers::~Helpers() {

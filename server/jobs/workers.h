@@ -22,6 +22,7 @@ class Helpers {
  public:
   using Task = core::Executor::Task;
 
+  /// There are fewer threads than workers - 1 if the system grants no more.
   explicit Helpers(std::size_t workers);
   /// No job may be left when this is destroyed.
   ~Helpers();

@@ -87,19 +87,19 @@ CLI::Option* add_number(CLI::App& app, const std::string& flag, T& value, T smal
   return add_flag(app, flag, value, description)->check(CLI::Range(smallest, largest));
 }
 
-/// A number of bytes; `range` says in words what it may be.
-CLI::Option* add_size(CLI::App& app, const std::string& flag, std::size_t& bytes, std::size_t least,
-                      const std::string& range, const std::string& shown_default,
-                      const std::string& description) {
-  constexpr std::size_t kMost = std::size_t{1} << 40;
-  const auto in_range = [least, range](const std::string& text) {
-    const std::uint64_t value = std::stoull(text);
-    return value < least || value > kMost ? "must be " + range : std::string();
-  };
+CLI::Option* add_size(CLI::App& app, const std::string& flag, std::size_t& bytes,
+                      const std::string& shown_default, const std::string& description) {
   return add_flag(app, flag, bytes, description + "; accepts KiB, MiB and GiB")
       ->transform(CLI::AsSizeValue(false))
-      ->check(CLI::Validator(in_range, ""))
       ->default_str(shown_default);
+}
+
+/// Returns the fault of a number of bytes that is not in the range, which `range` says in words.
+std::optional<std::string> size_fault(const std::string& flag, std::size_t bytes, std::size_t least,
+                                      const std::string& range) {
+  constexpr std::size_t kMost = std::size_t{1} << 40;
+  if (bytes >= least && bytes <= kMost) return std::nullopt;
+  return "--" + flag + " must be " + range;
 }
 
 /// Returns the names of all environment variables that begin like those of settings.
@@ -122,11 +122,9 @@ class Flags {
     settings_.web_root = default_web_root().string();
     add_serving();
     add_access();
-    add_job_flags(app_, settings_);
-    add_size(app_, "map-cache", settings_.map_cache, 0, "at most 1 TiB", "128MiB",
-             "Memory of maps that are kept for later requests, in bytes, 0 for none");
-    add_size(app_, "max-unsent", settings_.max_unsent, kMiB, "1 MiB to 1 TiB", "64MiB",
-             "Memory of answers that clients have not accepted yet, in bytes");
+    add_workers_flag(app_, settings_.workers);
+    add_sizes();
+    add_limit_flags(app_, settings_.limits);
     add_times();
     app_.add_flag("--healthcheck", settings_.healthcheck,
                   "Check whether the service with this host and these ports is alive: exit code 0, or 1")
@@ -203,6 +201,15 @@ class Flags {
         ->default_str("none");
   }
 
+  void add_sizes() {
+    add_size(app_, "max-body", settings_.limits.max_body, "32MiB",
+             "Largest body in bytes after decompression");
+    add_size(app_, "map-cache", settings_.map_cache, "128MiB",
+             "Memory of maps that are kept for later requests, in bytes, 0 for none");
+    add_size(app_, "max-unsent", settings_.max_unsent, "64MiB",
+             "Memory of answers that clients have not accepted yet, in bytes");
+  }
+
   void add_times() {
     add_number<std::int64_t>(app_, "idle-timeout-ms", idle_timeout_ms_, 1, kMaxMs,
                              "An idle connection is closed after this");
@@ -221,7 +228,13 @@ class Flags {
       return bad("--web-root: '" + settings_.web_root + "' is not a folder");
     }
     if (const auto fault = finish_access()) return bad(*fault);
-    if (const auto fault = settle_job_flags(app_, settings_)) return bad(*fault);
+    if (const auto fault = size_fault("max-body", settings_.limits.max_body, 1, "1 byte to 1 TiB"))
+      return bad(*fault);
+    if (const auto fault = size_fault("map-cache", settings_.map_cache, 0, "at most 1 TiB"))
+      return bad(*fault);
+    if (const auto fault = size_fault("max-unsent", settings_.max_unsent, kMiB, "1 MiB to 1 TiB"))
+      return bad(*fault);
+    if (const auto fault = settle_limits(app_, settings_.limits)) return bad(*fault);
     if (queue_->count() == 0) settings_.queue = kQueuePerWorker * static_cast<std::size_t>(settings_.workers);
     settings_.idle_timeout = std::chrono::milliseconds(idle_timeout_ms_);
     settings_.read_timeout = std::chrono::milliseconds(read_timeout_ms_);
@@ -284,14 +297,14 @@ std::optional<std::string> ignored_environment(const CLI::App& app) {
   return std::nullopt;
 }
 
-void add_job_flags(CLI::App& app, Settings& settings) {
-  settings.workers = cpus_granted();
-  api::Limits& limits = settings.limits;
-  add_number(app, "workers", settings.workers, 1, 1024,
+void add_workers_flag(CLI::App& app, int& workers) {
+  workers = cpus_granted();
+  add_number(app, "workers", workers, 1, 1024,
              "Planning threads, by default the CPUs granted; idle ones help with anytime plans");
-  add_size(app, "max-body", limits.max_body, 1, "1 byte to 1 TiB", "32MiB",
-           "Largest body in bytes after decompression");
-  add_size(app, "max-plan-memory", limits.max_plan_memory, kMiB, "1 MiB to 1 TiB", "256MiB",
+}
+
+void add_limit_flags(CLI::App& app, api::Limits& limits) {
+  add_size(app, "max-plan-memory", limits.max_plan_memory, "256MiB",
            "Most memory of a plan in bytes, from the parsed body to the answer");
   add_number<std::int64_t>(app, "max-cells", limits.max_cells, 1, 1'000'000'000, "Most cells of a map");
   add_number<std::size_t>(app, "max-robots", limits.max_robots, 1, 1'000'000, "Most robots of a request");
@@ -312,8 +325,9 @@ void add_job_flags(CLI::App& app, Settings& settings) {
   add_number<std::int64_t>(app, "max-budget-ms", limits.max_budget_ms, 1, kMaxMs, "Longest time for a plan");
 }
 
-std::optional<std::string> settle_job_flags(const CLI::App& app, Settings& settings) {
-  api::Limits& limits = settings.limits;
+std::optional<std::string> settle_limits(const CLI::App& app, api::Limits& limits) {
+  if (auto fault = size_fault("max-plan-memory", limits.max_plan_memory, kMiB, "1 MiB to 1 TiB"))
+    return fault;
   const bool sets_default = app.get_option("--" + std::string(kDefaultBudget))->count() > 0;
   if (sets_default && limits.default_budget_ms > limits.max_budget_ms) {
     return "--default-budget-ms is greater than --max-budget-ms";

@@ -51,11 +51,14 @@ struct SettingsExit {
 /// in capitals; empty is not set), the file of --config and defaults, in this order of precedence.
 std::variant<Settings, SettingsExit> parse_settings(std::vector<std::string> arguments);
 
-/// Adds the flags that commands without a server have, too, with their environment variables: the workers and
-/// the limits of a request. `settings` outlives `app`.
-void add_job_flags(CLI::App& app, Settings& settings);
-/// Makes these settings agree once `app` has parsed them. Returns the fault if they cannot.
-std::optional<std::string> settle_job_flags(const CLI::App& app, Settings& settings);
+// Flags, and their environment variables, that commands without a server have, too. What they set outlives
+// `app`.
+/// Adds the flag of the planning threads, by default one for each CPU granted.
+void add_workers_flag(CLI::App& app, int& workers);
+/// Adds the flags of the limits of a request, but for its size.
+void add_limit_flags(CLI::App& app, api::Limits& limits);
+/// Makes the limits agree once `app` has parsed them. Returns the fault if they are out of range.
+std::optional<std::string> settle_limits(const CLI::App& app, api::Limits& limits);
 /// Returns the fault of a bad value from the environment, which newer versions of CLI11 silently ignore.
 std::optional<std::string> ignored_environment(const CLI::App& app);
 

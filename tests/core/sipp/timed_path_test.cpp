@@ -405,6 +405,14 @@ TEST(TimedPath, BecomesShorterWithoutABend) {
   p.expect_safe_path();
 }
 
+TEST(TimedPath, KeepsABendBetweenStopsInTheSamePlace) {
+  Bent p(hall(), {{0.5, 2.5}, {4.5, 2.5}, {4.5, 4.5}, {4.5, 2.5}, {8.5, 2.5}});
+  EXPECT_FALSE(p.replace(2, 1));
+  EXPECT_TRUE(p.replace(2, 2));
+  EXPECT_THAT(p.stops(), ElementsAre(Position(0.5, 2.5), Position(4.5, 2.5), Position(8.5, 2.5)));
+  p.expect_safe_path();
+}
+
 TEST(TimedPath, MovesABend) {
   Bent p(hall(), kBend);
   EXPECT_TRUE(p.replace(1, 1, Position(4.3, 3.1)));

@@ -99,6 +99,16 @@ TEST_F(Map2Request, MakesARequestThatIsPlanned) {
   EXPECT_EQ(command({"plan"}, made.out).code, kSolved);
 }
 
+TEST_F(Map2Request, HasTheLimitsOfARequest) {
+  run(kYaml, kRobots);
+  const auto limited = [&](const std::string& flag) {
+    return command({"map2request", path("map.yaml"), "--robots", path("robots.csv"), flag});
+  };
+  EXPECT_EQ(limited("--max-robots=2").code, kSolved);
+  EXPECT_EQ(limited("--max-robots=1").code, kBadInput);
+  EXPECT_THAT(limited("--max-robots=1").err, HasSubstr("at most 1"));
+}
+
 TEST_F(Map2Request, ReadsWhatMapServerReads) {
   const std::string expected = run(kYaml, kRobots).out;
   for (const std::string yaml : {

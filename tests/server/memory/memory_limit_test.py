@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """The server under a limit of its address space (RLIMIT_AS): requests that want more than their share of memory get
-an answer, and honest ones are planned beside and after them.
+an answer, and honest ones are planned beside and after them. And a command with more workers than threads fit into it.
 
   memory_limit_test.py FLEETPLAN    the executable
 """
@@ -154,6 +154,21 @@ class MemoryLimit(unittest.TestCase):
                 status, problem = answer.result()
                 self.assertIn(status, (422, 503), problem)
         self.server.post(honest())
+
+
+class Command(unittest.TestCase):
+    """A command under the same limit."""
+
+    def test_it_works_with_the_threads_that_the_system_grants(self):
+        request = honest()
+        request["options"] = {"mode": "anytime", "max_iterations": 200}
+        request["robots"] += [{"id": "b", "start": {"x": 8.5, "y": 0.5}, "goal": {"x": 0.5, "y": 8.5}}]
+        done = subprocess.run(
+            [MemoryLimit.executable, "plan", "--workers", "1000"], input=json.dumps(request).encode(),
+            capture_output=True, check=False,
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (ADDRESS_SPACE, ADDRESS_SPACE)))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(json.loads(done.stdout)["status"], "solved")
 
 
 if __name__ == "__main__":

@@ -66,6 +66,7 @@ TEST(Settings, ComeFromFlags) {
   EXPECT_EQ(settings.limits.max_plan_memory, 96u << 20);
   EXPECT_EQ(settings.map_cache, 0u);
   EXPECT_EQ(settings.idle_timeout, std::chrono::milliseconds(7));
+  EXPECT_EQ(settings_of({"--max-unsent", "0x200000"}).max_unsent, 2u << 20);
 }
 
 TEST(Settings, ReadTheTokenFromAFile) {
@@ -118,6 +119,8 @@ TEST(Settings, RejectBadValuesAndNameTheFlag) {
                                "--map-cache=2TiB",
                                "--max-body=-5",
                                "--max-body=1XB",
+                               "--max-body=99999999999999999999999",
+                               "--max-unsent=99999999999999999999999",
                                "--max-cells=0",
                                "--max-robots=0",
                                "--max-depth=0",
