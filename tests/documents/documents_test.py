@@ -348,10 +348,11 @@ class ManualPage(unittest.TestCase):
         names = re.findall(r"^  ([a-z][a-z0-9-]+) ", listed.partition("Subcommands:")[2], re.MULTILINE)
         self.assertEqual(list(described), names)
         for name in set(names) - {"serve"}:
-            arguments = described[name].partition("\n")[0]
             wanted = self.options_of(described[name])
-            if "REQUEST" in arguments or name == "map2request":
-                wanted |= shared - (set() if "REQUEST" in arguments else {"--workers"})
+            if "REQUEST" in described[name].partition("\n")[0]:
+                wanted |= shared
+            elif name == "map2request":
+                wanted |= shared - {"--workers"}
             self.assertEqual(wanted, self.options_in(self.help_of(name)) - {"--help"}, name)
 
     def test_it_has_the_options_of_the_server(self):

@@ -19,7 +19,7 @@ export class Client {
     this.#document = document;
   }
 
-  /** {method, path, status, headers, body, json}. */
+  /** {method, path, status, headers, body, json, took_ms}. */
   async send(method, path, { body, headers = {} } = {}) {
     const sent = await this.#exchange(method, path, body, headers);
     return checked(this.#document, { method, path, ...sent });
@@ -62,6 +62,7 @@ export class Client {
   }
 
   #exchange(method, path, body, headers) {
+    const began = performance.now();
     return new Promise((resolve, reject) => {
       const { hostname: host, port } = this.#url;
       const length = body === undefined ? {} : { "Content-Length": Buffer.byteLength(body) };
@@ -71,7 +72,8 @@ export class Client {
           const parts = [];
           for await (const part of answer) parts.push(part);
           const text = Buffer.concat(parts).toString("utf8");
-          resolve({ status: answer.statusCode, headers: answer.headers, body: text });
+          const took_ms = performance.now() - began;
+          resolve({ status: answer.statusCode, headers: answer.headers, body: text, took_ms });
         } catch (error) {
           reject(error);
         }

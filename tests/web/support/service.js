@@ -1,7 +1,7 @@
 // The real server, started for a test run on a free port of 127.0.0.1 and stopped by its pid.
 
 import { spawn } from "node:child_process";
-import { readFileSync } from "node:fs";
+import { readdirSync, readFileSync } from "node:fs";
 import { createInterface } from "node:readline";
 
 import { freePorts } from "./free_ports.js";
@@ -9,9 +9,8 @@ import { freePorts } from "./free_ports.js";
 const START_MS = 60_000;
 // After which idle connections are closed: by default so soon that a busy machine's browser may just be sending.
 const IDLE_MS = 60_000;
-const TICK_MS = 10; // of CPU times in /proc
 
-/** Starts the server that FLEETPLAN_BIN names, with the page that was built with it: {url, cpuMs, stop, kill}. */
+/** Starts the server that FLEETPLAN_BIN names, with the page that was built with it: {url, pid, stop, kill}. */
 export async function startService(flags = []) {
   const binary = process.env.FLEETPLAN_BIN;
   if (!binary) throw new Error("FLEETPLAN_BIN must name the server binary");
@@ -35,8 +34,7 @@ export async function startService(flags = []) {
   };
   try {
     const url = await listening(child);
-    const cpuMs = () => cpuMsOf(child.pid);
-    return { url, cpuMs, stop: () => stop("SIGTERM"), kill: () => stop("SIGKILL") };
+    return { url, pid: child.pid, stop: () => stop("SIGTERM"), kill: () => stop("SIGKILL") };
   } catch (error) {
     end.wanted = true;
     child.kill("SIGKILL");
@@ -44,11 +42,18 @@ export async function startService(flags = []) {
   }
 }
 
-/** The CPU time that a process has had, of all its threads. */
-function cpuMsOf(pid) {
-  const fields = readFileSync(`/proc/${pid}/stat`, "utf8").split(") ").at(-1).split(" ");
-  const [user, system] = fields.slice(11, 13).map(Number);
-  return TICK_MS * (user + system);
+/** How long each thread of a process has waited for a CPU so far, in milliseconds by thread. */
+export function cpuWaits(pid) {
+  const waits = new Map();
+  for (const thread of readdirSync(`/proc/${pid}/task`)) {
+    try {
+      const [, waited] = readFileSync(`/proc/${pid}/task/${thread}/schedstat`, "utf8").split(" ");
+      waits.set(thread, Number(waited) / 1e6);
+    } catch {
+      // the thread has ended, or the kernel does not tell
+    }
+  }
+  return waits;
 }
 
 function listening(child) {
