@@ -164,17 +164,12 @@ constexpr double kLeastGain = 1e-6;
 /// it has found such a plan.
 bool undo_vain_move(PlanState& state, std::size_t robot, std::int64_t& expansions_left,
                     const StopCondition& stop) {
-  FleetReservations& reservations = state.reservations();
-  Trajectory now = *reservations.trajectory(robot);
   SearchLimits limits;
-  limits.bound = now.cost - kLeastGain;
+  limits.bound = state.reservations().trajectory(robot)->cost - kLeastGain;
   limits.max_expansions = std::max<std::int64_t>(expansions_left, 1);
-  reservations.remove(robot);
-  SearchResult result = state.plan(robot, limits, stop);
+  const SearchResult result = state.replan(robot, limits, stop);
   expansions_left -= result.expansions;
-  const bool is_undone = result.trajectory.has_value();
-  reservations.follow(robot, is_undone ? std::move(*result.trajectory) : std::move(now));
-  return is_undone;
+  return result.trajectory.has_value();
 }
 
 /// Lets robots that make way (Robot::yields) stay where they are done, or nearer, if the others of the plan

@@ -288,9 +288,9 @@ std::optional<std::vector<Trajectory>> plan_in_steps(const FleetReservations& re
   return trajectories;
 }
 
-bool follow_steps(FleetReservations& reservations, const std::vector<std::size_t>& order,
-                  const std::vector<std::size_t>& hopeless, Random& random, const StopCondition& stop,
-                  ProgressReport& progress) {
+StepsOutcome follow_steps(FleetReservations& reservations, const std::vector<std::size_t>& order,
+                          const std::vector<std::size_t>& hopeless, Random& random, const StopCondition& stop,
+                          ProgressReport& progress) {
   std::vector<bool> moves(reservations.instance().size(), false);
   for (const std::size_t robot : order) moves[robot] = true;
   for (const std::size_t robot : hopeless) moves[robot] = false;
@@ -299,13 +299,14 @@ bool follow_steps(FleetReservations& reservations, const std::vector<std::size_t
     if (moves[robot]) robots.push_back(robot);
   }
   for (std::size_t i = 0; i < moves.size(); ++i) {
-    if (!moves[i] && reservations.trajectory(i)) return false;  // its motion is not known to steps
+    if (!moves[i] && reservations.trajectory(i))
+      return StepsOutcome::none;  // its motion is not known to steps
   }
   const StopCondition part = after_share(stop, kShareOfSteps);
   const FleetReservations::Snapshot before = reservations.snapshot();
   try {
     auto trajectories = plan_in_steps(reservations, robots, random, part);
-    if (!trajectories) return false;
+    if (!trajectories) return part.met() ? StepsOutcome::cut_off : StepsOutcome::none;
     for (const std::size_t robot : robots) reservations.remove(robot);
     bool is_free = true;
     for (std::size_t k = 0; k < robots.size() && is_free; ++k) {
@@ -315,12 +316,12 @@ bool follow_steps(FleetReservations& reservations, const std::vector<std::size_t
     if (is_free) {
       progress.next_attempt();
       progress.update();
-      return true;
+      return StepsOutcome::followed;
     }
   } catch (const std::bad_alloc&) {  // not granted to the job
   }
   reservations.restore(before);
-  return false;
+  return part.met() ? StepsOutcome::cut_off : StepsOutcome::none;
 }
 
 }  // namespace fleetplan::core

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -28,11 +29,15 @@ std::optional<std::vector<Trajectory>> plan_in_steps(const FleetReservations& re
                                                      const std::vector<std::size_t>& robots, Random& random,
                                                      const StopCondition& stop);
 
+/// Whether robots follow a plan in steps; if not, whether because the time was over, so that there may be
+/// one.
+enum class StepsOutcome : std::uint8_t { followed, none, cut_off };
+
 /// Plans the robots of `order`, which no others but those that stay share the map with, in steps, except for
-/// the `hopeless` ones, which stay. Returns whether all of them follow the result, and nobody meets; if not,
+/// the `hopeless` ones, which stay. If all of them have a plan in which nobody meets, they follow it; if not,
 /// no reservation has changed. Takes a part of the time until `stop`.
-bool follow_steps(FleetReservations& reservations, const std::vector<std::size_t>& order,
-                  const std::vector<std::size_t>& hopeless, Random& random, const StopCondition& stop,
-                  ProgressReport& progress);
+StepsOutcome follow_steps(FleetReservations& reservations, const std::vector<std::size_t>& order,
+                          const std::vector<std::size_t>& hopeless, Random& random, const StopCondition& stop,
+                          ProgressReport& progress);
 
 }  // namespace fleetplan::core

@@ -212,6 +212,7 @@ class Restarts {
 
   void give_up(std::size_t robot) {
     result_.given_up.push_back(robot);
+    result_.hopeless.push_back(robot);
     orders_.drop(robot);
     state_.reservations().stay_in_place(robot);
     best_ = {orders_.current(), {}, std::nullopt};

@@ -6,10 +6,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <set>
 #include <vector>
 
 #include "core/instance/instance.h"
+#include "core/prioritized/lattice_steps.h"
 #include "core/prioritized/plan_state.h"
 #include "core/prioritized/progress_report.h"
 #include "core/runtime/random.h"
@@ -78,8 +80,9 @@ struct OrderingResult {
   /// The robots of given_up that have no path even if all others that may move are absent, now and in any
   /// order.
   std::vector<std::size_t> hopeless;
-  std::int64_t attempts = 1;  // times that robots were ordered and planned
-  bool cut_off = false;       // the stop condition was met first
+  std::int64_t attempts = 1;               // times that robots were ordered and planned
+  bool cut_off = false;                    // the stop condition was met first
+  std::optional<StepsOutcome> steps = {};  // of the last plan in steps, if there was any
 };
 
 /// Plans all robots of `order`; whenever one fails, starts again in another order (paper, section Prioritized

@@ -49,6 +49,29 @@ SearchResult PlanState::plan_ignoring(std::size_t robot, const std::vector<std::
   return plan(robot, limits, stop);
 }
 
+SearchResult PlanState::plan_to(std::size_t robot, std::vector<Goal> goals, const SearchLimits& limits,
+                                const StopCondition& stop) {
+  SearchResult result = memory_.within_memory(SearchResult{std::nullopt, false, 0}, [&]() -> SearchResult {
+    Itinerary itinerary = instance_.itinerary(robot);
+    itinerary.goals = std::move(goals);
+    SearchSpace space(instance_, robot, std::move(itinerary), stop);
+    if (!space.finished()) return {std::nullopt, false, 0};
+    SearchLimits within = limits;
+    within.bound = std::min(limits.bound, instance_.stages(robot).longest_plan());
+    return memory_.search().run(space, within, stop);
+  });
+  expansions_ += result.expansions;
+  return result;
+}
+
+SearchResult PlanState::replan(std::size_t robot, const SearchLimits& limits, const StopCondition& stop) {
+  Trajectory now = *reservations_.trajectory(robot);
+  reservations_.remove(robot);
+  SearchResult result = plan(robot, limits, stop);
+  reservations_.follow(robot, result.trajectory ? *result.trajectory : std::move(now));
+  return result;
+}
+
 SearchResult PlanState::search(std::size_t robot, const SearchLimits& limits, const StopCondition& stop) {
   if (robot == whole_way_of_) {
     SearchResult whole = search_whole_way(robot, limits, stop);

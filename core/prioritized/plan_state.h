@@ -38,6 +38,12 @@ class PlanState {
   /// Plans a robot as plan() does, but does not ask during the search whether robots that stay close it off:
   /// for callers that change what searches meet of the others.
   SearchResult search(std::size_t robot, const SearchLimits& limits, const StopCondition& stop);
+  /// Plans a robot as plan() does, to these goals instead of its own. It has one load.
+  SearchResult plan_to(std::size_t robot, std::vector<Goal> goals, const SearchLimits& limits,
+                       const StopCondition& stop);
+  /// Plans a robot that follows a trajectory as plan() does, among the other ones. If that finds a
+  /// trajectory, the robot follows it instead.
+  SearchResult replan(std::size_t robot, const SearchLimits& limits, const StopCondition& stop);
   /// The trajectory of the robot alone on the map; it stays in its place if there is none.
   Trajectory plan_alone(std::size_t robot, const StopCondition& stop);
 

@@ -6,6 +6,7 @@
 
 #include "core/prioritized/expected_arrivals.h"
 #include "core/prioritized/lattice_steps.h"
+#include "core/prioritized/making_room.h"
 #include "core/prioritized/orderings.h"
 #include "core/prioritized/partial_plan.h"
 #include "core/prioritized/repair.h"
@@ -90,8 +91,14 @@ class PrioritizedPlanning {
   PrioritizedResult run() {
     OrderingResult ordering = plan_in_orders();
     result_.attempts += ordering.attempts;
-    result_.cut_off = result_.cut_off || ordering.cut_off || best_.has_value();
+    result_.cut_off =
+        result_.cut_off || ordering.cut_off || best_.has_value() || ordering.steps == StepsOutcome::cut_off;
     if (solved(ordering)) return std::move(result_);
+    if (may_need_room(ordering) && give_way(ordering.hopeless, ordering.steps.has_value())) {
+      ordering.unsolved.clear();
+      ordering.given_up = ordering.hopeless;
+      if (solved(ordering)) return std::move(result_);
+    }
     const bool may_try_again = !ordering.cut_off && other_orders_may_help(ordering);
     if (may_try_again || !best_ || !ordering.cut_off) {
       keep_if_better(ordering.unsolved, ordering.given_up, may_try_again ? Effort::brief : Effort::full,
@@ -146,7 +153,7 @@ class PrioritizedPlanning {
   /// whether planning goes on. It does not if all robots that are not given up can move in steps.
   bool keep_safe_plan(const std::vector<std::size_t>& unsolved, const std::vector<std::size_t>& given_up) {
     if (best_ || time_.all.met()) return false;
-    if (!has_few_robots() && moves_in_steps(given_up)) return false;
+    if (moves_in_steps(given_up)) return false;
     const FleetReservations::Snapshot before = state_.reservations().snapshot();
     keep_if_better(unsolved, given_up, Effort::brief, time_.keeping);
     if (best_->plan.staying.empty()) return false;
@@ -157,11 +164,17 @@ class PrioritizedPlanning {
 
   /// Returns whether it keeps a plan in which all robots but those that are given up move in steps.
   bool moves_in_steps(const std::vector<std::size_t>& given_up) {
-    if (!follow_steps(state_.reservations(), order_, given_up, random_, time_.keeping, progress_))
-      return false;
+    if (!steps_succeed(given_up, time_.keeping)) return false;
     ++result_.attempts;
     keep_if_better({}, given_up, Effort::brief, time_.keeping);
     return true;
+  }
+
+  bool steps_succeed(const std::vector<std::size_t>& staying, const StopCondition& stop) {
+    const StepsOutcome outcome =
+        follow_steps(state_.reservations(), order_, staying, random_, stop, progress_);
+    result_.cut_off = result_.cut_off || outcome == StepsOutcome::cut_off;
+    return outcome == StepsOutcome::followed;
   }
 
   void keep_if_better(const std::vector<std::size_t>& unsolved, const std::vector<std::size_t>& given_up,
@@ -178,6 +191,40 @@ class PrioritizedPlanning {
     const auto reordering = state_.instance().options().reordering;
     return !any_yields(state_.instance()) &&
            (reordering == PlanOptions::Reordering::random || has_few_robots());
+  }
+
+  /// Whether robots may have a plan although repair, or all orders of few robots, have failed.
+  bool may_need_room(const OrderingResult& ordering) const {
+    return state_.instance().options().reordering == PlanOptions::Reordering::raise_failed &&
+           !ordering.cut_off &&
+           ordering.hopeless.size() < ordering.unsolved.size() + ordering.given_up.size();
+  }
+
+  /// Plans the robots that are not hopeless in steps or, few of them, so that they make room for each other.
+  /// Returns whether they follow the better plan of the two; if there is none, no reservation has changed.
+  bool give_way(const std::vector<std::size_t>& hopeless, bool tried_steps) {
+    FleetReservations& reservations = state_.reservations();
+    std::vector<std::size_t> robots = order_;
+    std::erase_if(robots, [&](std::size_t robot) {
+      return std::find(hopeless.begin(), hopeless.end(), robot) != hopeless.end();
+    });
+    double least = kForever;
+    std::optional<FleetReservations::Snapshot> best;
+    const auto keep_if_better = [&] {
+      double cost = 0.0;
+      for (const std::size_t robot : robots) cost += reservations.trajectory(robot)->cost;
+      if (cost < least) best = reservations.snapshot();
+      least = std::min(least, cost);
+    };
+    ++result_.attempts;
+    if (!tried_steps && steps_succeed(hopeless, stop_)) {
+      if (has_few_robots()) replan_for_less(state_, robots, stop_);
+      keep_if_better();
+    }
+    if (has_few_robots() && make_room(state_, robots, stop_, progress_)) keep_if_better();
+    result_.cut_off = result_.cut_off || stop_.met();
+    if (best) reservations.restore(std::move(*best));
+    return best.has_value();
   }
 
   bool other_orders_may_help(const OrderingResult& ordering) const {

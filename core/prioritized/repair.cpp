@@ -141,7 +141,10 @@ class Repair {
   /// Returns whether all robots but the hopeless ones have new trajectories; if not, nothing has changed.
   bool plans_all_in_steps() {
     tried_steps_ = true;
-    if (!follow_steps(reservations_, order_, result_.hopeless, random_, stop_, progress_)) return false;
+    const StepsOutcome outcome =
+        follow_steps(reservations_, order_, result_.hopeless, random_, stop_, progress_);
+    result_.steps = outcome;
+    if (outcome != StepsOutcome::followed) return false;
     ++result_.attempts;
     pending_.clear();
     result_.given_up = result_.hopeless;

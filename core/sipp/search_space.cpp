@@ -14,14 +14,29 @@ SearchSpace::SearchSpace(const Instance& instance, std::size_t robot, const Stop
       robot_(robot),
       stages_(&instance.stages(robot)),
       itinerary_(instance.itinerary(robot)),
-      begins_in_goal_pose_(!instance.robot(robot).committed.empty() && !itinerary_.goals.empty() &&
-                           is_in_pose(itinerary_.pose, itinerary_.goals.front())),
       costs_to_go_(goal_count()) {
+  find_goals(stop);
+}
+
+SearchSpace::SearchSpace(const Instance& instance, std::size_t robot, Itinerary itinerary,
+                         const StopCondition& stop)
+    : instance_(instance),
+      robot_(robot),
+      stages_(&instance.stages(robot)),
+      own_itinerary_(std::move(itinerary)),
+      itinerary_(own_itinerary_),
+      costs_to_go_(goal_count()) {
+  find_goals(stop);
+}
+
+void SearchSpace::find_goals(const StopCondition& stop) {
+  begins_in_goal_pose_ = !instance_.robot(robot_).committed.empty() && !itinerary_.goals.empty() &&
+                         is_in_pose(itinerary_.pose, itinerary_.goals.front());
   while (goals_at_start_ < goal_count() &&
          itinerary_.goals[goals_at_start_].position == itinerary_.pose.position) {
     ++goals_at_start_;
   }
-  views_.push_back({std::make_unique<Vertices>(instance, robot, 0, stop), 0});
+  views_.push_back({std::make_unique<Vertices>(instance_, robot_, itinerary_, 0, stop), 0});
   if (changes_load() && finished()) add_views(stop);
   if (finished()) find_equal_goals();
 }
@@ -32,7 +47,6 @@ SearchSpace::SearchSpace(const Instance& instance, std::size_t robot, const Goal
       stages_(&instance.stages(robot)),
       own_itinerary_{.committed = {}, .pose = instance.itinerary(robot).pose, .visited = {}, .goals = {goal}},
       itinerary_(own_itinerary_),
-      begins_in_goal_pose_(false),
       first_equal_{0},
       costs_to_go_(1) {
   views_.push_back({std::make_unique<Vertices>(instance, robot, goal), 0});
@@ -55,7 +69,7 @@ void SearchSpace::add_views(const StopCondition& stop) {
     view_of_stage_.push_back(known->second);
     if (!is_new) continue;
     const int first_vertex = vertex_count();
-    views_.push_back({std::make_unique<Vertices>(instance_, robot_, stage, stop), first_vertex});
+    views_.push_back({std::make_unique<Vertices>(instance_, robot_, itinerary_, stage, stop), first_vertex});
     if (!finished()) return;
   }
 }

@@ -24,6 +24,8 @@ class SearchSpace {
  public:
   /// If `stop` is met first, the space is not finished() and must not be used.
   SearchSpace(const Instance& instance, std::size_t robot, const StopCondition& stop);
+  /// With another itinerary than that of the instance, with the same begin, for a robot with one load.
+  SearchSpace(const Instance& instance, std::size_t robot, Itinerary itinerary, const StopCondition& stop);
   /// For robots that are alike, one after the other, on their ways to the same goal; they share the costs to
   /// go. begin_at() makes it the space of a robot, which has no commitments and one load.
   SearchSpace(const Instance& instance, std::size_t robot, const Goal& goal);
@@ -99,18 +101,19 @@ class SearchSpace {
   const View& view(std::size_t stage) const {
     return views_[view_of_stage_.empty() ? 0 : view_of_stage_[stage]];
   }
+  void find_goals(const StopCondition& stop);
   void add_views(const StopCondition& stop);
   void find_equal_goals();
 
   const Instance& instance_;
   std::size_t robot_;
   const RobotStages* stages_;
-  Itinerary own_itinerary_;  // used instead of the instance's one, see begin_at()
+  Itinerary own_itinerary_;  // if it is not that of the instance
   const Itinerary& itinerary_;
   bool any_heading_at_start_ = false;
   std::vector<View> views_;                 // one for each load
   std::vector<std::size_t> view_of_stage_;  // empty if there is one view
-  bool begins_in_goal_pose_;
+  bool begins_in_goal_pose_ = false;
   std::size_t goals_at_start_ = 0;                      // the first so many, which need no move
   std::vector<std::size_t> first_equal_;                // by goal
   std::vector<std::unique_ptr<CostToGo>> costs_to_go_;  // by goal, of the first of equal ones

@@ -203,12 +203,12 @@ void Vertices::replace_start(const Instance& instance, std::size_t robot) {
   start_ = at_goal ? goal : own_.add_start(robot);
 }
 
-Vertices::Vertices(const Instance& instance, std::size_t robot, std::size_t stage, const StopCondition& stop)
+Vertices::Vertices(const Instance& instance, std::size_t robot, const Itinerary& itinerary, std::size_t stage,
+                   const StopCondition& stop)
     : Vertices(instance, robot, stage) {
   const RobotStages& stages = instance.stages(robot);
   const Load& load = stages[stage].load;
   if (stages[0].load == load) start_ = own_.add_start(robot);
-  const Itinerary& itinerary = instance.itinerary(robot);
   // Committed actions that end in contact with the goal end there: a service goes on, without a move.
   double same = instance.robot(robot).committed.empty() ? kSamePosition : kContactTolerance;
   std::size_t work = 0;  // since the last check

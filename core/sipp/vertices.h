@@ -13,6 +13,7 @@
 #include "core/geometry/segment.h"
 #include "core/map/lattice.h"
 #include "core/model/drive_zones.h"
+#include "core/model/itinerary.h"
 #include "core/model/motion.h"
 #include "core/model/robot.h"
 #include "core/runtime/stop_condition.h"
@@ -113,7 +114,9 @@ class Vertices {
  public:
   /// The view with the load of the robot in a stage, see RobotStages.
   /// If `stop` is met first, the view is not finished() and must not be used.
-  Vertices(const Instance& instance, std::size_t robot, std::size_t stage, const StopCondition& stop);
+  /// `itinerary`: of the robot; its begin and its loads are those of the instance.
+  Vertices(const Instance& instance, std::size_t robot, const Itinerary& itinerary, std::size_t stage,
+           const StopCondition& stop);
   /// The view with one goal and without a start, until replace_start() gives one: for robots that are alike,
   /// one after the other, on their ways to the same goal.
   Vertices(const Instance& instance, std::size_t robot, const Goal& goal);

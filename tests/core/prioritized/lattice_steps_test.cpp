@@ -62,7 +62,7 @@ TEST(LatticeSteps, FollowingThemChangesNothingWhenStopped) {
   Planning p(hall(), {robot_at(0.5, 0.5).to(5.5, 0.5), robot_at(5.5, 0.5).to(0.5, 0.5)});
   p.reservations.reserve_place(0, 3.0);
   p.reservations.stay_in_place(1);
-  EXPECT_FALSE(follow_steps(p.reservations, {0, 1}, {}, p.random, met(), p.progress));
+  EXPECT_EQ(follow_steps(p.reservations, {0, 1}, {}, p.random, met(), p.progress), StepsOutcome::cut_off);
   EXPECT_FALSE(p.reservations.trajectory(0));
   EXPECT_EQ(p.reservations.holds_place_for(0), 3.0);
   EXPECT_EQ(p.reservations.holds_place_for(1), kForever);
@@ -81,14 +81,14 @@ TEST(LatticeSteps, GoRoundRobotsThatStay) {
   Planning p(hall(), {robot_at(0.5, 1.5).to(5.5, 1.5), robot_at(2.5, 1.5), robot_at(3.6, 0.4)});
   p.reservations.stay_in_place(1);
   p.reservations.stay_in_place(2);
-  ASSERT_TRUE(follow_steps(p.reservations, {0}, {}, p.random, p.never, p.progress));
+  ASSERT_EQ(follow_steps(p.reservations, {0}, {}, p.random, p.never, p.progress), StepsOutcome::followed);
   support::expect_safe(p.reservations);
 }
 
 TEST(LatticeSteps, FollowingThemChangesNothingWhereTheyCannotBe) {
   Planning p(hall(), {robot_at(0.5, 0.5).to(5.5, 0.5), robot_at(0.5, 1.5).to(5.5, 1.5)});
   p.reservations.follow(1, through({{0.5, 1.5}, {5.5, 1.5}}));
-  EXPECT_FALSE(follow_steps(p.reservations, {0}, {}, p.random, p.never, p.progress))
+  EXPECT_EQ(follow_steps(p.reservations, {0}, {}, p.random, p.never, p.progress), StepsOutcome::none)
       << "another robot is under way";
   EXPECT_FALSE(p.reservations.trajectory(0));
   EXPECT_TRUE(p.reservations.trajectory(1));
