@@ -195,8 +195,7 @@ class PrioritizedPlanning {
 
   /// Whether robots may have a plan although repair, or all orders of few robots, have failed.
   bool may_need_room(const OrderingResult& ordering) const {
-    return state_.instance().options().reordering == PlanOptions::Reordering::raise_failed &&
-           !ordering.cut_off &&
+    return state_.instance().options().reordering != PlanOptions::Reordering::none && !ordering.cut_off &&
            ordering.hopeless.size() < ordering.unsolved.size() + ordering.given_up.size();
   }
 

@@ -36,10 +36,12 @@ struct PlanningTime {
 
 /// Prioritized planning of `movers` (ascending): one by one in the order of their priorities, each among the
 /// trajectories of those before it; after a failure again with other priorities, by the option `reordering`
-/// (paper, section Prioritized planning). If robots are given up, starts again in random orders until all are
-/// planned, the time is over, or nothing is left to try: when each unplanned robot has no path even if the
-/// others are absent, when the option forbids it, or with few robots when all orders have failed. Without a
-/// deadline the number of orders is limited. Leaves the best safe plan in the state.
+/// (paper, section Prioritized planning). If that plans not all of them, plans them in steps
+/// (lattice_steps.h) or, few of them, so that two make room for each other (making_room.h). If robots are
+/// given up all the same, starts again in random orders until all are planned, the time is over, or nothing
+/// is left to try: when each unplanned robot has no path even if the others are absent, when the option
+/// forbids it, or with few robots when all orders have failed. Without a deadline the number of orders is
+/// limited. Leaves the best safe plan in the state.
 PrioritizedResult plan_prioritized(PlanState& state, const std::vector<std::size_t>& movers, Random& random,
                                    const PlanningTime& time, ProgressReport& progress);
 
