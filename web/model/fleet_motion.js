@@ -31,10 +31,10 @@ function motionsOf(robots, tracks) {
 function withVicinity(robots, motions) {
   const vicinities = new Map(robots.map(({ id, vicinity }) => [id, vicinity]));
   return new Map(
-    [...motions].map(([id, { radius, knots, radii }]) => {
+    [...motions].map(([id, motion]) => {
       const more = vicinities.get(id) ?? 0;
-      const later = radii.map((each) => ({ ...each, radius: each.radius + more }));
-      return [id, { radius: radius + more, knots, radii: later }];
+      const radii = motion.radii.map((each) => ({ ...each, radius: each.radius + more }));
+      return [id, { ...motion, radius: motion.radius + more, radii }];
     }),
   );
 }

@@ -213,7 +213,8 @@
  * @property {Action[]} former
  */
 
-/** @typedef {{radius: number, knots: Float64Array, radii: {t: number, radius: number}[]}} Motion see motion.js */
+/** @typedef {{radius: number, knots: Float64Array, ramps: Float64Array, radii: {t: number, radius: number}[]}} Motion
+ * see motion.js */
 
 // The options of a request, see options.js
 

@@ -12,7 +12,12 @@ import {
 import { ProblemError } from "../../../web/model/problem.js";
 import { Session } from "../../../web/model/session.js";
 
-const motion = (...knots) => ({ radius: 0.5, knots: Float64Array.from(knots), radii: [] });
+const motion = (...knots) => ({
+  radius: 0.5,
+  knots: Float64Array.from(knots),
+  ramps: new Float64Array(knots.length / 3),
+  radii: [],
+});
 
 test("a kind of violation is described in words, an unknown one by its name", () => {
   assert.equal(kindInWords("robot_collision"), "Robots collide");
