@@ -54,11 +54,21 @@ function normalised(theta) {
 /** Where robots start, as disks. */
 export const startDisks = ({ robots }) => robots.map(({ start, radius }) => ({ ...start, radius }));
 
-/** Where robots other than `but` stay at the end, as disks. */
+/** The radius of a robot at its last goal, after all loads. */
+export const lastRadius = ({ radius, radiiAfter }) => radiiAfter.findLast((each) => each !== null) ?? radius;
+
+/** Where a robot stays at the end, as a disk; null if it may be at one of several poses. */
+function endDisk(robot) {
+  if (robot.goal === null && robot.alternatives.at(-1)?.length > 0) return null;
+  return { ...(robot.goal ?? robot.start), radius: robot.goal ? lastRadius(robot) : robot.radius };
+}
+
+/** Where robots other than `but` stay at the end, as disks, as far as that is known. */
 export const endDisks = ({ robots }, /** @type {Robot | null} */ but = null) =>
   robots
     .filter(({ id }) => id !== but?.id)
-    .map(({ goal, start, radius }) => ({ ...(goal ?? start), radius }));
+    .map(endDisk)
+    .filter((disk) => disk !== null);
 
 /** The middle of the cell at a world point, or of one within a radius of it, where a disk fits; null if there is none. */
 export function placeWithRoom(grid, point, radius, others) {
@@ -70,9 +80,9 @@ export function placeWithRoom(grid, point, radius, others) {
  * @param {Scene} scene
  */
 export function misplaced(scene) {
-  const [starts, ends] = [startDisks(scene), endDisks(scene)];
+  const [starts, ends] = [startDisks(scene), scene.robots.map(endDisk)];
   const fits = (disks, at) => {
-    const others = disks.filter((_, other) => other !== at);
+    const others = disks.filter((disk, other) => disk !== null && other !== at);
     return scene.grid === null || hasRoom(scene.grid, disks[at], disks[at].radius, others);
   };
   return scene.robots.flatMap((robot, at) => {
