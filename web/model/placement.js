@@ -57,16 +57,16 @@ export const startDisks = ({ robots }) => robots.map(({ start, radius }) => ({ .
 /** The radius of a robot at its last goal, after all loads. */
 export const lastRadius = ({ radius, radiiAfter }) => radiiAfter.findLast((each) => each !== null) ?? radius;
 
-/** Where a robot stays at the end, as a disk; null if it may be at one of several poses. */
+/** Where a robot goes, as a disk; null if it may be at one of several poses. */
 function endDisk(robot) {
   if (robot.goal === null && robot.alternatives.at(-1)?.length > 0) return null;
   return { ...(robot.goal ?? robot.start), radius: robot.goal ? lastRadius(robot) : robot.radius };
 }
 
-/** Where robots other than `but` stay at the end, as disks, as far as that is known. */
+/** Where robots other than `but` stay at the end, as disks. Those that yield need not stay, and others may go there. */
 export const endDisks = ({ robots }, /** @type {Robot | null} */ but = null) =>
   robots
-    .filter(({ id }) => id !== but?.id)
+    .filter(({ id, yields }) => id !== but?.id && !yields)
     .map(endDisk)
     .filter((disk) => disk !== null);
 
@@ -80,14 +80,18 @@ export function placeWithRoom(grid, point, radius, others) {
  * @param {Scene} scene
  */
 export function misplaced(scene) {
-  const [starts, ends] = [startDisks(scene), scene.robots.map(endDisk)];
-  const fits = (disks, at) => {
-    const others = disks.filter((disk, other) => disk !== null && other !== at);
-    return scene.grid === null || hasRoom(scene.grid, disks[at], disks[at].radius, others);
+  const { grid, robots } = scene;
+  const [starts, ends] = [startDisks(scene), robots.map(endDisk)];
+  const staying = ends.map((disk, at) => (robots[at].yields ? null : disk));
+  const fits = (disk, at, disks) => {
+    const others = disks.filter((each, other) => each !== null && other !== at);
+    return grid === null || hasRoom(grid, disk, disk.radius, others);
   };
-  return scene.robots.flatMap((robot, at) => {
-    if (!fits(starts, at)) return [{ robot, pose: "start" }];
-    return robot.goal !== null && !fits(ends, at) ? [{ robot, pose: "goal" }] : [];
+  return robots.flatMap((robot, at) => {
+    if (!fits(starts[at], at, starts)) return [{ robot, pose: "start" }];
+    return robot.goal !== null && !fits(ends[at], at, robot.yields ? [] : staying)
+      ? [{ robot, pose: "goal" }]
+      : [];
   });
 }
 

@@ -74,6 +74,7 @@ function readRobots(request) {
       })),
       committed,
       vicinity: vicinityOf(robot, request.robot_defaults),
+      yields: robot.idle === "yield",
       makesWay: robot.idle === "yield" || robot.idle === "return",
       ...inertiasOf(robot, request.robot_defaults),
     });

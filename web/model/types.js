@@ -165,7 +165,8 @@
  * the goals before the last one, null where they are faulty; `radiiAfter` are the radii that goals change, null where
  * they do not; `services` say how long they take, and from when on; `alternatives` are the poses at one of which each goal
  * is served, none of a goal with one pose, null where they are faulty; `committed` is the path of its committed actions;
- * `vicinity` is what it keeps from others; `makesWay` says whether it moves for others while it has nothing to do.
+ * `vicinity` is what it keeps from others; `makesWay` says whether it moves for others while it has nothing to do, and
+ * `yields` whether it then need not come back.
  * @typedef {object} Robot
  * @property {number} index
  * @property {string} id
@@ -180,6 +181,7 @@
  * @property {Position[]} committed
  * @property {number} vicinity
  * @property {boolean} makesWay
+ * @property {boolean} yields
  * @property {Inertia} inertia at first
  * @property {Inertia[]} inertiasAfter after each of its goals
  */

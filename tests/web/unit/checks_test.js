@@ -99,6 +99,22 @@ test("a robot in a wall is reported at its start or goal", () => {
   assert.equal(placementErrors(THREE_ROBOTS, [violation], "goal")[0].pointer, "/robots/2/goal");
 });
 
+test("goals of robots that yield may overlap, starts may not, and walls are in the way of all", () => {
+  const violation = { kind: "robot_collision", robots: ["a", "c"], t: 0, distance: 0, required: 0.6 };
+  const [a, b, c] = THREE_ROBOTS.robots;
+  for (const robots of [
+    [{ ...a, idle: "yield" }, b, c],
+    [a, b, { ...c, idle: "yield" }],
+  ]) {
+    const errors = (violation, pose) => placementErrors({ ...THREE_ROBOTS, robots }, [violation], pose);
+    assert.deepEqual(errors(violation, "goal"), []);
+    assert.equal(errors(violation, "start").length, 1);
+    assert.equal(errors({ ...violation, kind: "obstacle_collision", robots: ["a"] }, "goal").length, 1);
+  }
+  const returning = [a, b, { ...c, idle: "return" }];
+  assert.equal(placementErrors({ ...THREE_ROBOTS, robots: returning }, [violation], "goal").length, 1);
+});
+
 test("overlapping robots are reported at the later one", () => {
   const violation = { kind: "robot_collision", robots: ["c", "a"], distance: 0.2, required: 0.6 };
   const [error] = placementErrors(THREE_ROBOTS, [violation], "goal");

@@ -114,3 +114,21 @@ test("a robot stays at its last goal with its last radius, and at none of severa
     ],
   );
 });
+
+test("robots that yield may have the goals of others", () => {
+  const place = { x: 1, y: 2 };
+  const robots = [
+    { id: "first", start: { x: 1, y: 1 }, goal: place, idle: "yield" },
+    { id: "second", start: { x: 2, y: 2 }, goal: place },
+    { id: "idle", start: { x: 2, y: 1 }, idle: "yield" },
+  ];
+  const found = (list) => misplaced(sceneOf(list)).map(({ robot, pose }) => [robot.id, pose]);
+  assert.deepEqual(found(robots), []);
+  assert.equal(endDisks(sceneOf(robots)).length, 1);
+  const { idle: _, ...staying } = robots[0];
+  assert.deepEqual(found([staying, ...robots.slice(1)]), [
+    ["first", "goal"],
+    ["second", "goal"],
+  ]);
+  assert.deepEqual(found([{ ...robots[0], goal: { x: 0.6, y: 2 } }]), [["first", "goal"]]);
+});
