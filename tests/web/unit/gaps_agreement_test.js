@@ -57,7 +57,9 @@ async function laterRequest(request, { plans, makespan }, share) {
   return ask("v1/advance", { request, plans, at, commit: COMMIT });
 }
 
-for (const { name } of await ask("v1/examples")) {
+const { examples } = await ask("v1/examples");
+
+for (const { name } of examples) {
   test(`${name}: the page and the service measure the same gaps`, async () => {
     const request = await ask(`v1/examples/${name}`);
     const answer = await ask("v1/plan", request);
