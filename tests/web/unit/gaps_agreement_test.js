@@ -1,5 +1,5 @@
-// The page measures gaps as the service's check does: in the plan of each example and, to have robots under way, with loads
-// and with committed motion, in that of the example a moment later.
+// The page measures gaps as the service's check does: in the plan of each example and of random fleets with loads and, to
+// have robots under way, with loads and with committed motion, in that of a moment later.
 
 import assert from "node:assert/strict";
 import { after, test } from "node:test";
@@ -70,3 +70,75 @@ for (const { name } of examples) {
     }
   });
 }
+
+let seed = 4711;
+const random = () => (seed = (seed * 48271) % 2147483647) / 2147483647;
+const between = (least, most) => least + (most - least) * random();
+const SIZE = 16; // of the hall, metres
+const CLOSED = { x: 17.5, y: 17.5 }; // a place to which no way leads
+const ROWS = [`${".".repeat(SIZE)}#.`, `${".".repeat(SIZE)}##`, ...Array(SIZE).fill(".".repeat(SIZE + 2))];
+
+const placeOf = (at, y) => ({ x: 1.5 + 4 * (at % 4), y: y + 8 * Math.floor(at / 4) });
+
+const goalOf = (place, accelerates) => ({
+  ...place,
+  ...(random() < 0.5 ? { service: between(0, 3) } : {}),
+  ...(random() < 0.3 ? { not_before: between(0, 12) } : {}),
+  ...(random() < 0.4 ? { radius_after: between(0.2, 0.5) } : {}),
+  ...(accelerates && random() < 0.4 ? { linear_acceleration_after: between(0.2, 1) } : {}),
+});
+
+function robotAt(at, last) {
+  const accelerates = random() < 0.8;
+  const goals = Array.from({ length: Math.floor(3 * random()) }, () =>
+    goalOf({ x: between(1, SIZE - 1), y: between(1, SIZE - 1) }, accelerates),
+  );
+  return {
+    id: `${at}`,
+    radius: between(0.2, 0.5),
+    linear_speed: between(0.5, 2),
+    angular_speed: 1,
+    ...(accelerates ? { linear_acceleration: between(0.2, 1) } : {}),
+    ...(accelerates && random() < 0.5 ? { linear_deceleration: between(0.2, 1) } : {}),
+    start: placeOf(at, 3.5),
+    goals: [...goals, goalOf(placeOf(last, 7.5), accelerates)],
+  };
+}
+
+/** A fleet of robots with goals and loads at random; most of them need time to start and to stop. */
+function randomRequest() {
+  const shift = Math.floor(8 * random());
+  const robots = Array.from({ length: 8 }, (_, at) => robotAt(at, (at * 3 + shift) % 8));
+  const options = { invalid_robots: "report", time_budget_ms: 1000 };
+  return { map: { rows: ROWS }, robots, options };
+}
+
+/** The answer without the times at which goals are served, which the page then finds in the actions. */
+const withoutVisits = (answer) => ({
+  ...answer,
+  plans: answer.plans.map(({ visits: _, ...plan }) => plan),
+});
+
+/** The request with a last goal of a robot that it cannot reach: it only executes what is committed. */
+function withoutWay(request, at) {
+  const robots = request.robots.map((robot, index) => {
+    if (index !== at || !robot.goals) return robot;
+    return { ...robot, goals: [...robot.goals.slice(0, -1), CLOSED], previous: undefined };
+  });
+  return { ...request, robots };
+}
+
+test("random fleets with loads: the page and the service measure the same gaps, with visits and without", async () => {
+  let unplanned = 0;
+  for (let fleet = 0; fleet < 20; fleet += 1) {
+    let request = randomRequest();
+    for (let round = 0; round < 4; round += 1) {
+      const answer = await ask("v1/plan", request);
+      await assertAgree(request, answer);
+      await assertAgree(request, withoutVisits(answer));
+      unplanned += answer.unplanned.filter(({ actions }) => actions?.length > 0).length;
+      request = withoutWay(await laterRequest(request, answer, 0.2), fleet % 8);
+    }
+  }
+  assert.ok(unplanned > 0, "no robot without a plan executes what is committed");
+});
