@@ -6,8 +6,10 @@ import { after, test } from "node:test";
 
 import { clearanceOf } from "../../../web/model/clearance.js";
 import { FleetMotion } from "../../../web/model/fleet_motion.js";
+import { planFile } from "../../../web/model/plan_file.js";
 import { Shown } from "../../../web/model/shown.js";
 import { Signals } from "../../../web/model/signals.js";
+import { answerOfRun, FIRST_FORM, simulationOf } from "../../../web/model/simulation.js";
 import { startService } from "../support/service.js";
 
 const service = await startService();
@@ -141,4 +143,20 @@ test("random fleets with loads: the page and the service measure the same gaps, 
     }
   }
   assert.ok(unplanned > 0, "no robot without a plan executes what is committed");
+});
+
+test("runs of simulations: the page and the service measure the same gaps, overlaps as well", async () => {
+  const form = { ...FIRST_FORM, runs: 1, stops: 600, policy: "open_loop" };
+  let overlaps = 0;
+  for (const each of ["forklifts", "warehouse-inertia", null, null, null, null]) {
+    const request = each === null ? randomRequest() : await ask(`v1/examples/${each}`);
+    const answer = await ask("v1/plan", request);
+    const { trace } = await ask("v1/simulate", simulationOf(request, answer, form, undefined, 0));
+    const run = answerOfRun(answer, trace);
+    const check = await ask("v1/validate", planFile(request, run));
+    const { least } = await gapsOnPage(request, run);
+    assert.ok(Math.abs(least - check.min_clearance) <= AGREED, `${least} is not ${check.min_clearance}`);
+    overlaps += check.min_clearance < 0 ? 1 : 0;
+  }
+  assert.ok(overlaps > 0);
 });
