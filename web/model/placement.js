@@ -6,7 +6,7 @@ import { cellAt, centreOf, isFree, tidy } from "./cells.js";
 
 const HEADING = Math.PI / 12; // radians: 15 degrees
 const FINE = 0.01; // of a cell: the precision of a hand
-export const CONTACT = 1e-9; // metres: touching is not a collision
+export const CONTACT = 5e-7; // metres: disks that overlap by no more are in contact, as for the service
 
 /** The middle of the nearest cell; if `free`, the point itself in round metres. Without a grid: the same. */
 export function snapPoint(grid, point, free) {

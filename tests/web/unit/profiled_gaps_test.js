@@ -6,6 +6,7 @@ import { test } from "node:test";
 import { clearanceOf } from "../../../web/model/clearance.js";
 import { firstOverlap, motionOf } from "../../../web/model/motion.js";
 import { inertiaOf, withChanges } from "../../../web/model/profile.js";
+import { RelativeMotion } from "../../../web/model/relative_motion.js";
 import { expectedPose } from "../support/expected_pose.js";
 
 const FASTEST = 3; // m/s
@@ -154,5 +155,34 @@ test("a radius counts from its time on, also from the end of all motion on", () 
     assert.ok(Math.abs(curve.gap[curve.least] - 1.25) < 1e-12, `from ${t} s on`);
     assert.equal(curve.t[curve.least], t);
     assert.equal(Math.max(...curve.gap), 2);
+  }
+});
+
+test("parabolas of all kinds: no sample is nearer than the nearest share, by more than they move between two", () => {
+  const next = numbers(15);
+  const sizes = [0, 0, 1e-12, 1e-6, 1, 1, 30];
+  const part = () => (next() - 0.5) * sizes[Math.floor(sizes.length * next())];
+  const SAMPLES = 500;
+  for (let kind = 0; kind < 3000; kind += 1) {
+    const [x, y] = [part(), part()];
+    const [wayX, wayY] = [part(), part()];
+    // Some are straight on their line, some turn back on it, and some pass the origin itself.
+    const along = 3 * (next() - 0.5);
+    const [bendX, bendY] = next() < 0.3 ? [wayX * along, wayY * along] : [part(), part()];
+    const motion = new RelativeMotion(x, y, wayX, wayY, bendX, bendY);
+    const at = (s) => Math.hypot(x + s * wayX - s * (1 - s) * bendX, y + s * wayY - s * (1 - s) * bendY);
+    const share = motion.nearestShare();
+    const least = motion.distance(share);
+    assert.ok(share >= 0 && share <= 1);
+    assert.ok(Math.abs(at(share) - least) < 1e-9);
+    const moved = (Math.hypot(wayX, wayY) + Math.hypot(bendX, bendY)) / SAMPLES / 2;
+    let sampled = Infinity;
+    for (let k = 0; k <= SAMPLES; k += 1) sampled = Math.min(sampled, at(k / SAMPLES));
+    assert.ok(least <= sampled + 1e-9 && least >= sampled - moved - 1e-9, `${kind}: ${least}, ${sampled}`);
+    assert.ok(motion.mayComeWithin(least + 1e-9));
+    const first = motion.firstShareWithin(least + 1e-3);
+    assert.ok(first !== null && at(first) <= least + 1e-3 + 1e-9);
+    for (let s = 0; s < first; s += 0.01) assert.ok(at(s) >= least + 1e-3 - 1e-9, `${kind}`);
+    assert.equal(motion.firstShareWithin(least - 1e-6), null);
   }
 });
