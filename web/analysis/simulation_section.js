@@ -198,7 +198,7 @@ export class SimulationSection {
       this.#plan = plan;
       this.#played = answerOfRun(plan, trace);
       this.#session.adopt(this.#played);
-      this.#page.ghosts.show(plan.plans);
+      this.#page.ghosts.show(plan);
       this.#session.highlight(robots);
       this.#session.seek(Math.max(0, t - BEFORE));
       this.#session.play();

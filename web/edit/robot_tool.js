@@ -4,7 +4,7 @@
 import { centreOf } from "../model/cells.js";
 import { addRobot, nameOf, numbersOfNext } from "../model/edit_request.js";
 import { robotsOf } from "../model/listed.js";
-import { endDisks, placeWithRoom, snapPoint, startDisks } from "../model/placement.js";
+import { endDisks, lastRadius, placeWithRoom, snapPoint, startDisks } from "../model/placement.js";
 import { drawPath, markWrong, ring } from "../scene/marks.js";
 import { metres } from "../ui/format.js";
 import { CellCursor } from "./cell_cursor.js";
@@ -156,7 +156,7 @@ export class RobotTool {
   #goalAt(world, event) {
     const { robot } = this.#choice;
     if (!robot) return null;
-    return this.#placeAt(world, robot.radius, endDisks(this.#session.scene, robot), event);
+    return this.#placeAt(world, lastRadius(robot), endDisks(this.#session.scene, robot), event);
   }
 
   /** Where a disk is put by a click: beside what is in its way, or null if that is too far; with Alt, exactly there. */

@@ -76,10 +76,18 @@ function standingAtGoal(robot) {
   return { ...rest, ...(radius === undefined ? {} : { radius }), start: pose, goal: pose };
 }
 
-/** The errors, [{pointer, detail}], for the violations of robots standing at their "start" or "goal". */
+/**
+ * The errors, [{pointer, detail}], for the violations of robots standing at their "start" or "goal". Robots that yield may
+ * have the goals of others.
+ */
 export function placementErrors(request, violations, pose) {
   const indices = new Map(robotsOf(request).map(({ id }, index) => [id, index]));
-  const standing = violations.filter(({ kind, t }) => PLACEMENT_KINDS.has(kind) && !(t > 0));
+  const yielding = new Set(robotsOf(request).flatMap(({ id, idle }) => (idle === "yield" ? [id] : [])));
+  const mayShare = ({ kind, robots }) =>
+    pose === "goal" && kind === "robot_collision" && robots.some((id) => yielding.has(id));
+  const standing = violations.filter(
+    (each) => PLACEMENT_KINDS.has(each.kind) && !(each.t > 0) && !mayShare(each),
+  );
   return standing.map(({ kind, robots, distance, required }) => {
     const placed = robots.map((id) => indices.get(id)).sort((a, b) => a - b);
     const room = `${inMetres(distance)} of the required ${inMetres(required)}`;

@@ -1,8 +1,8 @@
-// The exact clearance of robots over time: between two times at which any motion changes, all move at
-// constant speed, and the least distance of two has a closed form. Pure. Gaps in metres between the disks,
-// negative where they overlap.
+// The exact clearance of robots over time: between two times at which any motion changes, all accelerate
+// evenly, and the least distance of two is exact, see relative_motion.js. Pure. Gaps in metres between the
+// disks, negative where they overlap.
 
-import { Follower, knotTimes, lastKnot, sortedOnce } from "./motion.js";
+import { Follower, knotTimes, lastKnot, relativeMotion, sortedOnce } from "./motion.js";
 
 const SAMPLES = 600; // least number of windows, so that the curve is smooth
 const CONTACT = 1e-6; // metres that disks in contact may overlap
@@ -19,7 +19,9 @@ export function clearanceOf(motions, samples = SAMPLES, resting = true) {
   const end = lastKnot(motions);
   const even = Array.from({ length: samples }, (_, k) => (end * k) / samples);
   const times = sortedOnce([...knotTimes(motions, end), ...even]);
-  const windows = Math.max(1, times.length - 1);
+  // Who has another radius from the end on has it in none of the windows before.
+  const changesLast = motions.some(({ radii }) => radii.some(({ t }) => t >= end));
+  const windows = Math.max(1, changesLast ? times.length : times.length - 1);
   const curve = {
     t: new Float64Array(windows),
     gap: new Float64Array(windows),
@@ -121,22 +123,14 @@ export class ClearanceSweep {
   #compare(first, second, t0, t1) {
     const a = this.#followers[first];
     const b = this.#followers[second];
-    const [x, y] = [b.x - a.x, b.y - a.y];
-    const [wayX, wayY] = [b.endX - a.endX - x, b.endY - a.endY - y];
-    const share = closestShare(x, y, wayX, wayY);
-    const apart = Math.sqrt((x + wayX * share) ** 2 + (y + wayY * share) ** 2);
-    const gap = apart - a.radius - b.radius;
+    const motion = relativeMotion(a, b);
+    const radii = a.radius + b.radius;
+    if (!motion.mayComeWithin(this.#nearest.gap + radii + CONTACT)) return;
+    const share = motion.nearestShare();
+    const gap = motion.distance(share) - radii;
     if (!this.#resting && a.rests && b.rests && gap >= -CONTACT) return;
     if (gap < this.#nearest.gap) this.#nearest = { t: t0 + (t1 - t0) * share, gap, first, second };
   }
-}
-
-/**
- * The fraction in [0, 1] at which a point that moves from (x, y) by (wayX, wayY) is nearest to the origin.
- */
-function closestShare(x, y, wayX, wayY) {
-  const squared = wayX * wayX + wayY * wayY;
-  return squared > 0 ? Math.min(1, Math.max(0, -(x * wayX + y * wayY) / squared)) : 0;
 }
 
 /** Insertion sort, which is fast on nearly sorted input. */

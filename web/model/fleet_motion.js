@@ -31,10 +31,10 @@ function motionsOf(robots, tracks) {
 function withVicinity(robots, motions) {
   const vicinities = new Map(robots.map(({ id, vicinity }) => [id, vicinity]));
   return new Map(
-    [...motions].map(([id, { radius, knots, radii }]) => {
+    [...motions].map(([id, motion]) => {
       const more = vicinities.get(id) ?? 0;
-      const later = radii.map((each) => ({ ...each, radius: each.radius + more }));
-      return [id, { radius: radius + more, knots, radii: later }];
+      const radii = motion.radii.map((each) => ({ ...each, radius: each.radius + more }));
+      return [id, { ...motion, radius: motion.radius + more, radii }];
     }),
   );
 }
@@ -71,6 +71,8 @@ export class FleetMotion {
   #signals = new Signals();
   /** @type {Map<string, Motion> | null} */
   #byId = null;
+  /** @type {Map<string, Motion> | null} */
+  #keptFree = null;
   /** @type {NearestPair | null} */
   #nearest = null;
   /** @type {WeakMap<object, NearestPair>} */
@@ -85,7 +87,7 @@ export class FleetMotion {
     this.#session = session;
     this.#compute = compute;
     session.on("answer", () => {
-      this.#byId = null;
+      this.#byId = this.#keptFree = null;
       this.#measure();
     });
   }
@@ -138,6 +140,12 @@ export class FleetMotion {
   get byId() {
     this.#byId ??= motionsOf(this.#session.scene.robots, this.#session.tracks);
     return this.#byId;
+  }
+
+  /** The same motions of what the robots keep free, their disks and vicinities. */
+  get keptFree() {
+    this.#keptFree ??= withVicinity(this.#session.scene.robots, this.byId);
+    return this.#keptFree;
   }
 
   /**

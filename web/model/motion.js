@@ -1,41 +1,46 @@
-// The centre of a robot over time, as a polyline: knots (t, x, y) with constant velocity in between. Two
-// knots at one time are a jump, which occurs only in faulty plans. Pure. Times in seconds, lengths in metres.
+// The centre of a robot over time, as a polyline: knots (t, x, y) with constant acceleration in between, straight along
+// the line. Two knots at one time are a jump, which occurs only in faulty plans. Pure. Times in seconds, lengths in metres.
 
-import { knotsOf } from "./profile.js";
-import { poseInAction } from "./timeline.js";
+import { coveredShare, phasesOf } from "./profile.js";
+import { RelativeMotion } from "./relative_motion.js";
+import { poseAtShare } from "./timeline.js";
 
 const CONTACT = 5e-7; // metres: disks that overlap by no more are in contact
 
 /**
- * The motion of a robot {start, radius} that executes `actions`: {radius, knots, radii}, the knots one after the
- * other as t, x, y, t, x, y, …; `radii`, see readTracks, are those that it has later.
+ * The motion of a robot {start, radius} that executes `actions`: {radius, knots, ramps, radii}, the knots one after the
+ * other as t, x, y, t, x, y, …; `ramps` has for each knot how the speed changes from the one before, see coveredShare;
+ * `radii`, see readTracks, are those that it has later.
  */
 export function motionOf(robot, actions, radii = []) {
   const knots = [];
+  const ramps = [];
   for (const action of actions) {
-    if (action.changes) {
-      for (const t of knotsOf(action)) addKnot(knots, t, poseInAction(action, t));
-    } else {
-      addKnot(knots, action.t_start, action.from);
-      addKnot(knots, action.t_end, action.to);
+    for (const { t_start, t_end, from, to, ramp } of phasesOf(action)) {
+      addKnot(knots, ramps, t_start, poseAtShare(action, from), 0);
+      addKnot(knots, ramps, t_end, poseAtShare(action, to), knots[knots.length - 3] === t_start ? ramp : 0);
     }
   }
-  if (knots.length === 0) knots.push(0, robot.start.x, robot.start.y);
-  return { radius: robot.radius, knots: Float64Array.from(knots), radii };
+  if (knots.length === 0) addKnot(knots, ramps, 0, robot.start, 0);
+  return { radius: robot.radius, knots: Float64Array.from(knots), ramps: Float64Array.from(ramps), radii };
 }
 
 /**
  * Appends a knot. Omits redundant ones, and those of a faulty plan that go back in time or are not finite.
  */
-function addKnot(knots, t, { x, y }) {
+function addKnot(knots, ramps, t, { x, y }, ramp) {
   const end = knots.length;
   if (!Number.isFinite(t + x + y) || (end > 0 && t < knots[end - 3])) return;
   const rests = (at) => at >= 0 && knots[at + 1] === x && knots[at + 2] === y;
   if (rests(end - 3)) {
     if (t === knots[end - 3]) return;
-    if (rests(end - 6)) knots.length -= 3;
+    if (rests(end - 6)) {
+      knots.length -= 3;
+      ramps.length -= 1;
+    }
   }
   knots.push(t, x, y);
+  ramps.push(ramp);
 }
 
 /** The radius at t of something with a `radius` at first and later `radii`, see readTracks. */
@@ -45,7 +50,10 @@ export function radiusAt({ radius, radii }, t) {
 
 /** The last time at which one of the motions changes; 0 where nothing moves. */
 export function lastKnot(motions) {
-  return motions.reduce((last, { knots }) => Math.max(last, knots[knots.length - 3]), 0);
+  return motions.reduce(
+    (last, { knots, radii }) => Math.max(last, knots[knots.length - 3], ...radii.map(({ t }) => t)),
+    0,
+  );
 }
 
 /** The times in [0, end] at which one of the motions changes, ascending, each once, with 0 and `end`. */
@@ -71,14 +79,16 @@ export function sortedOnce(numbers) {
 }
 
 /**
- * Follows a motion through time. `x`, `y` and `endX`, `endY` are its positions at both ends of a span, `radius` is that
- * of all the span, and `rests` whether it does not move in it.
+ * Follows a motion through time. `x`, `y` and `endX`, `endY` are its positions at both ends of a span, `bendX`, `bendY` how
+ * its speed changes (see RelativeMotion), `radius` is that of all the span, and `rests` whether it does not move in it.
  */
 export class Follower {
   x = 0;
   y = 0;
   endX = 0;
   endY = 0;
+  bendX = 0;
+  bendY = 0;
   rests = true;
   radius;
   #motion;
@@ -101,16 +111,23 @@ export class Follower {
     const y = knots[at + 2];
     this.x = this.endX = x;
     this.y = this.endY = y;
+    this.bendX = this.bendY = 0;
     this.rests = true;
     if (at + 3 >= knots.length || t0 < knots[at]) return;
-    this.rests = knots[at + 4] === x && knots[at + 5] === y;
+    const [wayX, wayY] = [knots[at + 4] - x, knots[at + 5] - y];
+    this.rests = wayX === 0 && wayY === 0;
+    const ramp = this.#motion.ramps[at / 3 + 1];
     const lasts = knots[at + 3] - knots[at];
     const begin = (t0 - knots[at]) / lasts;
     const end = (t1 - knots[at]) / lasts;
-    this.x = x + (knots[at + 4] - x) * begin;
-    this.y = y + (knots[at + 5] - y) * begin;
-    this.endX = end === 1 ? knots[at + 4] : x + (knots[at + 4] - x) * end;
-    this.endY = end === 1 ? knots[at + 5] : y + (knots[at + 5] - y) * end;
+    const [covered, until] = [coveredShare(begin, ramp), coveredShare(end, ramp)];
+    this.x = x + wayX * covered;
+    this.y = y + wayY * covered;
+    this.endX = end === 1 ? knots[at + 4] : x + wayX * until;
+    this.endY = end === 1 ? knots[at + 5] : y + wayY * until;
+    const bend = ramp * (end - begin) ** 2;
+    this.bendX = wayX * bend;
+    this.bendY = wayY * bend;
   }
 
   /** The time of the next knot, or of the next change of the radius, after t; Infinity if there is none. */
@@ -129,6 +146,19 @@ export class Follower {
   }
 }
 
+/** The motion of one follower relative to another one, in the span at which both look. */
+export function relativeMotion(a, b) {
+  const [x, y] = [b.x - a.x, b.y - a.y];
+  return new RelativeMotion(
+    x,
+    y,
+    b.endX - a.endX - x,
+    b.endY - a.endY - y,
+    b.bendX - a.bendX,
+    b.bendY - a.bendY,
+  );
+}
+
 /** The first time in [from, until] at which two motions are closer than `margin`, or null. */
 export function firstOverlap(motion, other, from, until, margin = 0) {
   const [a, b] = [new Follower(motion), new Follower(other)];
@@ -137,27 +167,9 @@ export function firstOverlap(motion, other, from, until, margin = 0) {
     const t1 = Math.min(until, a.nextKnot(t0), b.nextKnot(t0));
     a.look(t0, t1);
     b.look(t0, t1);
-    const [x, y] = [b.x - a.x, b.y - a.y];
-    const reach = a.radius + b.radius + margin - CONTACT;
-    const share = shareUntil(reach, x, y, b.endX - a.endX - x, b.endY - a.endY - y);
+    const share = relativeMotion(a, b).firstShareWithin(a.radius + b.radius + margin - CONTACT);
     if (share !== null) return t0 + (t1 - t0) * share;
     t0 = t1;
   } while (t0 < until);
   return null;
-}
-
-/**
- * The fraction in [0, 1] at which a point that moves from (x, y) by (wayX, wayY) comes within reach of the
- * origin, or null.
- */
-function shareUntil(reach, x, y, wayX, wayY) {
-  if (reach <= 0) return null;
-  const beyond = x * x + y * y - reach * reach;
-  if (beyond < 0) return 0;
-  const squared = wayX * wayX + wayY * wayY;
-  const nearing = -(x * wayX + y * wayY);
-  const under = nearing * nearing - squared * beyond;
-  if (nearing <= 0 || under <= 0) return null;
-  const share = beyond / (nearing + Math.sqrt(under)); // the first root, without cancellation
-  return share < 1 ? share : null;
 }

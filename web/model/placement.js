@@ -6,7 +6,7 @@ import { cellAt, centreOf, isFree, tidy } from "./cells.js";
 
 const HEADING = Math.PI / 12; // radians: 15 degrees
 const FINE = 0.01; // of a cell: the precision of a hand
-export const CONTACT = 1e-9; // metres: touching is not a collision
+export const CONTACT = 5e-7; // metres: disks that overlap by no more are in contact, as for the service
 
 /** The middle of the nearest cell; if `free`, the point itself in round metres. Without a grid: the same. */
 export function snapPoint(grid, point, free) {
@@ -54,11 +54,21 @@ function normalised(theta) {
 /** Where robots start, as disks. */
 export const startDisks = ({ robots }) => robots.map(({ start, radius }) => ({ ...start, radius }));
 
-/** Where robots other than `but` stay at the end, as disks. */
+/** The radius of a robot at its last goal, after all loads. */
+export const lastRadius = ({ radius, radiiAfter }) => radiiAfter.findLast((each) => each !== null) ?? radius;
+
+/** Where a robot goes, as a disk; null if it may be at one of several poses. */
+function endDisk(robot) {
+  if (robot.goal === null && robot.alternatives.at(-1)?.length > 0) return null;
+  return { ...(robot.goal ?? robot.start), radius: robot.goal ? lastRadius(robot) : robot.radius };
+}
+
+/** Where robots other than `but` stay at the end, as disks. Those that yield need not stay, and others may go there. */
 export const endDisks = ({ robots }, /** @type {Robot | null} */ but = null) =>
   robots
-    .filter(({ id }) => id !== but?.id)
-    .map(({ goal, start, radius }) => ({ ...(goal ?? start), radius }));
+    .filter(({ id, yields }) => id !== but?.id && !yields)
+    .map(endDisk)
+    .filter((disk) => disk !== null);
 
 /** The middle of the cell at a world point, or of one within a radius of it, where a disk fits; null if there is none. */
 export function placeWithRoom(grid, point, radius, others) {
@@ -70,14 +80,18 @@ export function placeWithRoom(grid, point, radius, others) {
  * @param {Scene} scene
  */
 export function misplaced(scene) {
-  const [starts, ends] = [startDisks(scene), endDisks(scene)];
-  const fits = (disks, at) => {
-    const others = disks.filter((_, other) => other !== at);
-    return scene.grid === null || hasRoom(scene.grid, disks[at], disks[at].radius, others);
+  const { grid, robots } = scene;
+  const [starts, ends] = [startDisks(scene), robots.map(endDisk)];
+  const staying = ends.map((disk, at) => (robots[at].yields ? null : disk));
+  const fits = (disk, at, disks) => {
+    const others = disks.filter((each, other) => each !== null && other !== at);
+    return grid === null || hasRoom(grid, disk, disk.radius, others);
   };
-  return scene.robots.flatMap((robot, at) => {
-    if (!fits(starts, at)) return [{ robot, pose: "start" }];
-    return robot.goal !== null && !fits(ends, at) ? [{ robot, pose: "goal" }] : [];
+  return robots.flatMap((robot, at) => {
+    if (!fits(starts[at], at, starts)) return [{ robot, pose: "start" }];
+    return robot.goal !== null && !fits(ends[at], at, robot.yields ? [] : staying)
+      ? [{ robot, pose: "goal" }]
+      : [];
   });
 }
 

@@ -3,6 +3,8 @@
 
 /** @import {Action, Inertia} from "./types.js" */
 
+const ROUNDING = 1e-6; // seconds
+
 /** What the robot of a request needs to change its speed: seconds to gain, and to lose, a metre (radian) per second. */
 export function inertiaOf(robot, defaults = null) {
   const inverse = (name) => {
@@ -23,15 +25,15 @@ export function inertiaAfter(goal, inertia) {
 }
 
 /**
- * The actions, each that has a profile with `changes`: the seconds in which its speed rises and falls.
+ * The actions, each that has a profile with `changes`: the seconds in which its speed rises and falls. A profile that does
+ * not fit into its action is left out, as the service's check does: the action then is at constant speed.
  * @param {Action[]} actions
  * @param {Inertia} inertia at first
  * @param {{t: number, inertia: Inertia}[]} later each from its t on
  */
 export function withChanges(actions, inertia, later = []) {
   if (!actions.some(({ profile }) => profile)) return actions;
-  const rounding = 1e-6; // seconds
-  const inertiaAt = (t) => later.findLast((each) => each.t <= t + rounding)?.inertia ?? inertia;
+  const inertiaAt = (t) => later.findLast((each) => each.t <= t + ROUNDING)?.inertia ?? inertia;
   return actions.map((action) => {
     const { profile, type } = action;
     if (!profile) return action;
@@ -39,7 +41,9 @@ export function withChanges(actions, inertia, later = []) {
     const inertia = inertiaAt(action.t_start);
     const rise = (profile.cruise - profile.start) * (turns ? inertia.turn : inertia.rise);
     const fall = (profile.cruise - profile.end) * (turns ? inertia.turn : inertia.fall);
-    return { ...action, changes: { rise, fall } };
+    const lasts = action.t_end - action.t_start;
+    const fits = profile.cruise > 0 && rise >= 0 && fall >= 0 && rise + fall <= lasts + ROUNDING;
+    return fits ? { ...action, changes: { rise, fall } } : action;
   });
 }
 
@@ -55,46 +59,62 @@ export function speedAt(action, t, amount) {
   return profile.cruise;
 }
 
+/**
+ * The share of a way that is covered after a share of its time, while the speed changes evenly: it is 1 - ramp of its mean
+ * at first, and 1 + ramp at last.
+ */
+export const coveredShare = (elapsed, ramp) => elapsed * (1 - ramp * (1 - elapsed));
+
+/** The share of the time that it takes to cover a share of the way: the inverse of coveredShare. */
+function elapsedShare(covered, ramp) {
+  const square = (1 - ramp) ** 2 + 4 * ramp * covered;
+  return covered > 0 ? (2 * covered) / (1 - ramp + Math.sqrt(Math.max(0, square))) : 0;
+}
+
+/**
+ * The parts of an action in each of which its speed changes evenly, one after the other: from which share of its way to
+ * which, and its `ramp`, see coveredShare. Where a robot is at any time, in all of the page, follows from them.
+ * @param {Action} action
+ * @returns {{t_start: number, t_end: number, from: number, to: number, ramp: number}[]}
+ */
+export function phasesOf({ t_start, t_end, profile, changes }) {
+  const whole = { t_start, t_end, from: 0, to: 1, ramp: 0 };
+  if (!profile || !changes) return [whole];
+  const { start, cruise, end } = profile;
+  const risen = Math.min(t_end, t_start + changes.rise);
+  const falls = Math.max(risen, t_end - changes.fall);
+  const parts = [
+    { begin: t_start, until: risen, first: start, last: cruise },
+    { begin: risen, until: falls, first: cruise, last: cruise },
+    { begin: falls, until: t_end, first: cruise, last: end },
+  ].filter(({ begin, until, first, last }) => until > begin && first + last > 0);
+  const lengths = parts.map(({ begin, until, first, last }) => ((first + last) / 2) * (until - begin));
+  const length = lengths.reduce((sum, each) => sum + each, 0);
+  if (!(length > 0)) return [whole];
+  let covered = 0;
+  return parts.map(({ begin, until, first, last }, at) => {
+    const from = covered / length;
+    covered += lengths[at];
+    const to = at + 1 < parts.length ? covered / length : 1;
+    return { t_start: begin, t_end: until, from, to, ramp: (last - first) / (last + first) };
+  });
+}
+
 /** The share of the way, in [0, 1], that an action has covered at t. */
 export function shareAt(action, t) {
-  const { t_start, t_end, changes } = action;
-  const duration = t_end - t_start;
-  if (!(duration > 0)) return 1;
-  const elapsed = Math.min(duration, Math.max(0, t - t_start));
-  if (!changes || elapsed === duration) return elapsed / duration;
-  return covered(action, elapsed) / covered(action, duration);
+  const { t_start, t_end } = action;
+  if (!(t_end > t_start) || t >= t_end) return 1;
+  if (t <= t_start) return 0;
+  const phases = phasesOf(action);
+  const phase = phases.find((each) => t < each.t_end) ?? phases[phases.length - 1];
+  const elapsed = (t - phase.t_start) / (phase.t_end - phase.t_start);
+  return phase.from + (phase.to - phase.from) * coveredShare(elapsed, phase.ramp);
 }
 
 /** The time at which an action has covered a share of its way: the inverse of shareAt. */
 export function timeAtShare(action, share) {
-  const { t_start, t_end, changes } = action;
-  if (!changes) return t_start + (t_end - t_start) * share;
-  let [early, late] = [t_start, t_end];
-  for (let halving = 0; halving < 40; halving += 1) {
-    const middle = (early + late) / 2;
-    if (shareAt(action, middle) < share) early = middle;
-    else late = middle;
-  }
-  return late;
-}
-
-/** The times within an action between which it covers its way evenly, up to a small part of its way. */
-export function knotsOf(action) {
-  const { t_start, t_end, changes } = action;
-  if (!changes) return [t_start, t_end];
-  const pieces = 16; // chords: a change from 0 to 1.5 m/s within 1.5 s is less than 1.2 mm away
-  const times = [t_start];
-  for (let piece = 1; piece <= pieces; piece += 1) times.push(t_start + (changes.rise * piece) / pieces);
-  for (let piece = 0; piece <= pieces; piece += 1) times.push(t_end - changes.fall * (1 - piece / pieces));
-  return [...new Set(times)].sort((a, b) => a - b);
-}
-
-/** What the profile covers in its first seconds. */
-function covered({ t_start, t_end, profile, changes: { rise, fall } }, elapsed) {
-  const { start, cruise, end } = profile;
-  const rising = Math.min(elapsed, rise);
-  const falling = Math.max(0, elapsed - (t_end - t_start - fall));
-  const gained = rise > 0 ? ((cruise - start) * rising ** 2) / (2 * rise) : 0;
-  const lost = fall > 0 ? ((cruise - end) * falling ** 2) / (2 * fall) : 0;
-  return start * rising + gained + cruise * (elapsed - rising) - lost;
+  const phases = phasesOf(action);
+  const phase = phases.find(({ to }) => share <= to) ?? phases[phases.length - 1];
+  const elapsed = elapsedShare((share - phase.from) / (phase.to - phase.from), phase.ramp);
+  return phase.t_start + (phase.t_end - phase.t_start) * elapsed;
 }

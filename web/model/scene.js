@@ -8,6 +8,7 @@ import { robotsOf } from "./listed.js";
 import { radiusAt } from "./motion.js";
 import { readObstacles } from "./moving_obstacles.js";
 import { inertiaAfter, inertiaOf, withChanges } from "./profile.js";
+import { servicesOf } from "./services.js";
 import { stuckOf } from "./stuck.js";
 import { doingAt, pathOf, poseAt } from "./timeline.js";
 import { readZones } from "./zones.js";
@@ -67,8 +68,13 @@ function readRobots(request) {
       via: goals.slice(0, -1),
       alternatives: goalsOf(robot).map((each) => alternativesOf(each).map(readPose)),
       radiiAfter: goalsOf(robot).map((each) => (positive(each?.radius_after) ? each.radius_after : null)),
+      services: goalsOf(robot).map((each) => ({
+        service: finiteOr(each?.service, 0),
+        notBefore: finiteOr(each?.not_before, 0),
+      })),
       committed,
       vicinity: vicinityOf(robot, request.robot_defaults),
+      yields: robot.idle === "yield",
       makesWay: robot.idle === "yield" || robot.idle === "return",
       ...inertiasOf(robot, request.robot_defaults),
     });
@@ -141,16 +147,14 @@ export function readTracks(scene, answer, outdated = null) {
       continue;
     }
     const listed = (plans.get(robot.id) ?? failures.get(robot.id))?.actions ?? [];
-    const loads = leavesOf(plans.get(robot.id)).map(({ goal, t }) => ({
-      t,
-      inertia: robot.inertiasAfter[goal] ?? robot.inertia,
-    }));
+    const leaves = leavesOf(robot, plans.get(robot.id), listed);
+    const loads = leaves.map(({ goal, t }) => ({ t, inertia: robot.inertiasAfter[goal] ?? robot.inertia }));
     const actions = withChanges(listed, robot.inertia, loads);
     tracks.set(robot.id, {
       status: statusOf(robot, plans, failures),
       actions,
       chosen: chosenOf(robot, plans.get(robot.id)),
-      radii: radiiOf(robot, plans.get(robot.id)),
+      radii: radiiOf(robot, leaves),
       path: pathOf(actions),
       cost: plans.get(robot.id)?.cost ?? null,
       lowerBound: plans.get(robot.id)?.lower_bound ?? null,
@@ -190,18 +194,18 @@ function lateOf(plan) {
   return visits.filter(({ late_by }) => late_by > 0).map(({ goal, late_by }) => ({ goal, seconds: late_by }));
 }
 
-/** When services at goals end, in their order: [{goal, t}]. */
-function leavesOf(plan) {
-  const visits = Array.isArray(plan?.visits) ? plan.visits : [];
-  const reached = visits.filter(({ t_arrive }) => t_arrive !== null);
+/** When services at goals end, in their order: [{goal, t}]. Of a robot without a plan, those of its committed actions. */
+function leavesOf(robot, plan, actions) {
+  if (!Array.isArray(plan?.visits)) return servicesOf(robot, actions, plan !== undefined);
+  const reached = plan.visits.filter(({ t_arrive }) => t_arrive !== null);
   return reached
     .map(({ goal, t_leave }) => ({ goal, t: t_leave ?? plan.cost }))
     .filter(({ t }) => Number.isFinite(t));
 }
 
 /** The radii that goals change, from the ends of their services. */
-function radiiOf({ radiiAfter }, plan) {
-  const changes = leavesOf(plan).map(({ goal, t }) => ({ t, radius: radiiAfter[goal] ?? null }));
+function radiiOf({ radiiAfter }, leaves) {
+  const changes = leaves.map(({ goal, t }) => ({ t, radius: radiiAfter[goal] ?? null }));
   return changes.filter(({ radius }) => radius !== null);
 }
 

@@ -31,8 +31,11 @@ export function actionIndexAt(actions, t) {
 
 /** The pose within one action; t is clamped to the action. */
 export function poseInAction(action, t) {
-  const { from, to } = action;
-  const share = shareAt(action, t);
+  return poseAtShare(action, shareAt(action, t));
+}
+
+/** The pose of an action after a share of its way. */
+export function poseAtShare({ from, to }, share) {
   if (share === 1) return { x: to.x, y: to.y, theta: to.theta };
   return {
     x: from.x + (to.x - from.x) * share,

@@ -163,9 +163,10 @@
 /**
  * A robot as it is drawn, at `index` of the request's robots. A goal's theta is null for any heading. `via` are
  * the goals before the last one, null where they are faulty; `radiiAfter` are the radii that goals change, null where
- * they do not; `alternatives` are the poses at one of which each goal is served, none of a goal with one pose, null
- * where they are faulty; `committed` is the path of its committed actions; `vicinity` is what it keeps from others; `makesWay` says
- * whether it moves for others while it has nothing to do.
+ * they do not; `services` say how long they take, and from when on; `alternatives` are the poses at one of which each goal
+ * is served, none of a goal with one pose, null where they are faulty; `committed` is the path of its committed actions;
+ * `vicinity` is what it keeps from others; `makesWay` says whether it moves for others while it has nothing to do, and
+ * `yields` whether it then need not come back.
  * @typedef {object} Robot
  * @property {number} index
  * @property {string} id
@@ -176,9 +177,11 @@
  * @property {({x: number, y: number, theta: number | null} | null)[]} via
  * @property {({x: number, y: number, theta: number | null} | null)[][]} alternatives
  * @property {(number | null)[]} radiiAfter
+ * @property {{service: number, notBefore: number}[]} services seconds
  * @property {Position[]} committed
  * @property {number} vicinity
  * @property {boolean} makesWay
+ * @property {boolean} yields
  * @property {Inertia} inertia at first
  * @property {Inertia[]} inertiasAfter after each of its goals
  */
@@ -213,7 +216,8 @@
  * @property {Action[]} former
  */
 
-/** @typedef {{radius: number, knots: Float64Array, radii: {t: number, radius: number}[]}} Motion see motion.js */
+/** @typedef {{radius: number, knots: Float64Array, ramps: Float64Array, radii: {t: number, radius: number}[]}} Motion
+ * see motion.js */
 
 // The options of a request, see options.js
 

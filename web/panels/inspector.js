@@ -183,7 +183,8 @@ export class Inspector {
     const hit = causeOfWait(robot.id, actions, at, this.#fleet.byId);
     if (hit) return this.#causeInWords("for", hit);
     const inflation = this.#session.request.options?.inflation ?? 0;
-    const near = inflation > 0 && causeOfWait(robot.id, actions, at, this.#fleet.byId, 2 * inflation);
+    const keepsMore = inflation > 0 || this.#session.scene.robots.some(({ vicinity }) => vicinity > 0);
+    const near = keepsMore && causeOfWait(robot.id, actions, at, this.#fleet.keptFree, 2 * inflation);
     if (near) return this.#causeInWords("to keep clear of", near);
     const note = element("span", {
       class: "note",
@@ -196,7 +197,8 @@ export class Inspector {
 
   #causeInWords(why, { robot, t }) {
     const chip = robotChip(this.#session, robot);
-    chip.title = `Without this wait, the two robots would collide at ${seconds(t)}`;
+    const what = why === "for" ? "collide" : "come too near";
+    chip.title = `Without this wait, the two robots would ${what} at ${seconds(t)}`;
     return [` ${why} `, chip];
   }
 

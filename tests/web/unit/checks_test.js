@@ -12,7 +12,12 @@ import {
 import { ProblemError } from "../../../web/model/problem.js";
 import { Session } from "../../../web/model/session.js";
 
-const motion = (...knots) => ({ radius: 0.5, knots: Float64Array.from(knots), radii: [] });
+const motion = (...knots) => ({
+  radius: 0.5,
+  knots: Float64Array.from(knots),
+  ramps: new Float64Array(knots.length / 3),
+  radii: [],
+});
 
 test("a kind of violation is described in words, an unknown one by its name", () => {
   assert.equal(kindInWords("robot_collision"), "Robots collide");
@@ -92,6 +97,22 @@ test("a robot in a wall is reported at its start or goal", () => {
   assert.equal(error.pointer, "/robots/2/start");
   assert.match(error.detail, /start does not fit: 0.1 m of the required 0.3 m/);
   assert.equal(placementErrors(THREE_ROBOTS, [violation], "goal")[0].pointer, "/robots/2/goal");
+});
+
+test("goals of robots that yield may overlap, starts may not, and walls are in the way of all", () => {
+  const violation = { kind: "robot_collision", robots: ["a", "c"], t: 0, distance: 0, required: 0.6 };
+  const [a, b, c] = THREE_ROBOTS.robots;
+  for (const robots of [
+    [{ ...a, idle: "yield" }, b, c],
+    [a, b, { ...c, idle: "yield" }],
+  ]) {
+    const errors = (violation, pose) => placementErrors({ ...THREE_ROBOTS, robots }, [violation], pose);
+    assert.deepEqual(errors(violation, "goal"), []);
+    assert.equal(errors(violation, "start").length, 1);
+    assert.equal(errors({ ...violation, kind: "obstacle_collision", robots: ["a"] }, "goal").length, 1);
+  }
+  const returning = [a, b, { ...c, idle: "return" }];
+  assert.equal(placementErrors({ ...THREE_ROBOTS, robots: returning }, [violation], "goal").length, 1);
 });
 
 test("overlapping robots are reported at the later one", () => {

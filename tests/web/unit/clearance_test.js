@@ -5,7 +5,12 @@ import { clearanceOf, ClearanceSweep, spellsBelow } from "../../../web/model/cle
 
 const near = (actual, expected) =>
   assert.ok(Math.abs(actual - expected) < 1e-12, `${actual} is not ${expected}`);
-const motion = (radius, ...knots) => ({ radius, knots: Float64Array.from(knots.flat()), radii: [] });
+const motion = (radius, ...knots) => ({
+  radius,
+  knots: Float64Array.from(knots.flat()),
+  ramps: new Float64Array(knots.length),
+  radii: [],
+});
 
 /** Numbers in [0, 1) that look random and are the same in every run. */
 function* numbers(seed) {

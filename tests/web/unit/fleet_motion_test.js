@@ -101,6 +101,16 @@ test("gaps beyond vicinities count what robots keep free", async () => {
   assert.deepEqual(fleet.least, { t: 3, gap: 0.125, ids: ["mover", "stayer"] });
   assert.deepEqual(fleet.nearestAt(3), { ids: ["mover", "stayer"], gap: 0.125 });
   assert.equal(fleet.byId.get("mover").radius, 0.25);
+  assert.deepEqual(
+    [...fleet.keptFree].map(([id, { radius }]) => [id, radius]),
+    [
+      ["far", 9.25],
+      ["mover", 0.375],
+      ["stayer", 0.5],
+    ],
+  );
+  session.adopt({ plans: [] });
+  assert.equal(fleet.keptFree.get("mover").knots.length, 3);
   const others = readTracks(session.scene, { plans: [] });
   assert.deepEqual(fleet.nearestAt(3, others), { ids: ["mover", "stayer"], gap: 3.125 });
 });

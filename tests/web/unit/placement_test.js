@@ -59,3 +59,76 @@ test("a robot stays at its goal, or at its start if it has none", () => {
   ]);
   assert.deepEqual(placesOf(endDisks(scene, scene.robots[1])), [[2, 2, 0.3]]);
 });
+
+test("a robot stays at its last goal with its last radius, and at none of several poses yet", () => {
+  const loads = [
+    { x: 1, y: 1, radius_after: 0.5 },
+    { x: 1.5, y: 1 },
+    { x: 2, y: 2 },
+  ];
+  const scene = sceneOf([
+    { id: "loaded", start: { x: 1, y: 1 }, goals: loads },
+    { id: "loads-last", start: { x: 1, y: 2 }, goal: { x: 1, y: 2, radius_after: 0.2 } },
+    {
+      id: "any",
+      start: { x: 2, y: 1 },
+      goal: {
+        any_of: [
+          { x: 2, y: 1 },
+          { x: 2, y: 1.4 },
+        ],
+      },
+    },
+  ]);
+  const discs = endDisks(scene).map(({ x, y, radius }) => [x, y, radius]);
+  assert.deepEqual(discs, [
+    [2, 2, 0.5],
+    [1, 2, 0.2],
+  ]);
+  const near = sceneOf([
+    {
+      id: "loaded",
+      start: { x: 1, y: 2 },
+      goals: [
+        { ...loads[0], y: 2 },
+        { x: 1.7, y: 2 },
+      ],
+    },
+    { id: "beside", start: { x: 1, y: 1 }, goal: { x: 1, y: 2 } },
+    {
+      id: "any",
+      start: { x: 2, y: 1 },
+      goal: {
+        any_of: [
+          { x: 1, y: 1 },
+          { x: 2, y: 1.4 },
+        ],
+      },
+    },
+  ]);
+  assert.deepEqual(
+    misplaced(near).map(({ robot, pose }) => [robot.id, pose]),
+    [
+      ["loaded", "goal"],
+      ["beside", "goal"],
+    ],
+  );
+});
+
+test("robots that yield may have the goals of others", () => {
+  const place = { x: 1, y: 2 };
+  const robots = [
+    { id: "first", start: { x: 1, y: 1 }, goal: place, idle: "yield" },
+    { id: "second", start: { x: 2, y: 2 }, goal: place },
+    { id: "idle", start: { x: 2, y: 1 }, idle: "yield" },
+  ];
+  const found = (list) => misplaced(sceneOf(list)).map(({ robot, pose }) => [robot.id, pose]);
+  assert.deepEqual(found(robots), []);
+  assert.equal(endDisks(sceneOf(robots)).length, 1);
+  const { idle: _, ...staying } = robots[0];
+  assert.deepEqual(found([staying, ...robots.slice(1)]), [
+    ["first", "goal"],
+    ["second", "goal"],
+  ]);
+  assert.deepEqual(found([{ ...robots[0], goal: { x: 0.6, y: 2 } }]), [["first", "goal"]]);
+});

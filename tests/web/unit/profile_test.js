@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { motionOf } from "../../../web/model/motion.js";
+import { Follower, motionOf } from "../../../web/model/motion.js";
 import {
   inertiaAfter,
   inertiaOf,
@@ -73,10 +73,24 @@ test("a load changes how the actions after it begin and end", () => {
   assert.deepEqual(loaded, { rise: 4, fall: 4, turn: robot.turn });
   assert.deepEqual(inertiaAfter({ linear_deceleration_after: 0.1 }, loaded), { ...loaded, fall: 10 });
   assert.deepEqual(inertiaAfter({ radius_after: 1 }, robot), robot);
-  const second = { ...DRIVE, t_start: DRIVE.t_end, t_end: 2 * DRIVE.t_end };
+  const second = { ...DRIVE, t_start: DRIVE.t_end, t_end: DRIVE.t_end + 17 }; // 8 m in 8 s, 2 m in 1 s, 8 m in 8 s
   const [before, after] = withChanges([DRIVE, second], robot, [{ t: DRIVE.t_end, inertia: loaded }]);
   assert.deepEqual(before, withChanges([DRIVE], robot)[0]);
   assert.equal(after.changes.rise, 8);
+});
+
+test("a profile that does not fit into its action is left out", () => {
+  const inertia = inertiaOf(ROBOT, {});
+  for (const profile of [
+    { start: 0, cruise: 3, end: 0 },
+    { start: 2, cruise: 1, end: 0 },
+    { start: 0, cruise: 1, end: 2 },
+    { start: 0, cruise: null, end: 0 },
+  ]) {
+    const brief = { ...DRIVE, t_end: DRIVE.t_start + 8, profile };
+    assert.equal(withChanges([brief], inertia)[0].changes, undefined);
+    assert.ok(Math.abs(poseAt([brief], at(0), 5).x - 9) < 1e-12);
+  }
 });
 
 test("a rotation turns as its angular acceleration allows", () => {
@@ -90,10 +104,12 @@ test("a rotation turns as its angular acceleration allows", () => {
 });
 
 test("gaps are measured along the way that it drives", () => {
-  const { knots } = motionOf({ start: at(0), radius: 0.4 }, [ACTION]);
-  const positions = [];
-  for (let k = 0; k < knots.length; k += 3) positions.push([knots[k], knots[k + 1]]);
-  assert.ok(positions.some(([t, x]) => t === 3 && Math.abs(x - 2) < 1e-9));
-  assert.ok(positions.every(([t, x]) => Math.abs(poseAt([ACTION], at(0), t).x - x) < 1e-9));
-  assert.deepEqual(positions.at(-1), [13, 18]);
+  const motion = motionOf({ start: at(0), radius: 0.4 }, [ACTION]);
+  assert.deepEqual([...motion.knots], [1, 0, 0, 3, 2, 0, 9, 14, 0, 13, 18, 0]);
+  assert.deepEqual([...motion.ramps], [0, 1, 0, -1]);
+  const follower = new Follower(motion);
+  for (let t = 0; t < 14; t += 0.125) {
+    follower.look(t, t);
+    assert.ok(Math.abs(follower.x - poseAt([ACTION], at(0), t).x) < 1e-12, `${t} s`);
+  }
 });
