@@ -238,7 +238,8 @@ api::Reply JobRunner::run(Exchange& exchange, const Service::Endpoint& endpoint,
   Workers::Job job(workers_, client);
   api::Reply reply =
       job.refusal() ? refused(exchange, *job.refusal()) : compute(exchange, endpoint, events, job, client);
-  if (job.refusal()) exchange.retry_after_s = workers_.retry_after_s();
+  const bool is_overloaded = reply.problem == api::name_of(api::ErrorCode::overloaded);
+  if (is_overloaded) exchange.retry_after_s = workers_.retry_after_s();
   if (reply.leftovers) disposal_.take(std::move(reply.leftovers));
   return reply;
 }
