@@ -258,8 +258,7 @@ Reply matrix_endpoint(std::string_view body, const RequestContext& context) {
                             .goals = request->to.distinct.size(),
                             .cells = cells_of(request->map->grid())};
     if (!travelling.begin(effort, request->budget)) return std::nullopt;
-    const auto answers =
-        matrix_times(*request, travelling.stop(), travelling.executor(), travelling.go_on());
+    const auto answers = matrix_times(*request, travelling.stop(), travelling.executor(), travelling.go_on());
     auto text = answers ? write_matrix(*request, *answers, work.before_end()) : std::nullopt;
     return text ? std::move(text) : travelling.unfinished(kWhat, "poses");
   };

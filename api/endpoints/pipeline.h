@@ -26,7 +26,8 @@ namespace fleetplan::api {
 
 /// Runs an endpoint and returns its reply. All of its work is bounded by the Work that it gets: from the
 /// first byte of the body to the last byte of the answer's text. It is granted `max_plan_memory`; the reply
-/// is 422 `memory_exceeded` if it needs more, and 503 `overloaded` if the process lacks what is granted. The reply keeps the memory that is still in use, if it is much.
+/// is 422 `memory_exceeded` if it needs more, and 503 `overloaded` if the process lacks what is granted. The
+/// reply keeps the memory that is still in use, if it is much.
 Reply bounded_work(const RequestContext& context, const std::function<Reply(core::Work&)>& endpoint);
 
 /// Returns the 422 for a request that needs more memory than it is granted.

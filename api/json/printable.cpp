@@ -53,8 +53,8 @@ constexpr std::array<std::pair<char32_t, char32_t>, 11> kHidden{{
 
 bool is_hidden(char32_t code) {
   if ((code & 0xFFFEU) == 0xFFFEU) return true;  // the last two of each plane
-  const auto range = std::find_if(kHidden.begin(), kHidden.end(),
-                                  [code](const auto& one) { return code <= one.second; });
+  const auto range =
+      std::find_if(kHidden.begin(), kHidden.end(), [code](const auto& one) { return code <= one.second; });
   return range != kHidden.end() && code >= range->first;
 }
 

@@ -136,8 +136,8 @@ class PoseCheck {
     for_each_part(from_.poses.size(), to_.poses.size(),
                   [&](std::size_t row, std::size_t rows, std::size_t column, std::size_t columns) {
                     auto robots = robots_at(PosesPart(from_.poses).subspan(row, rows),
-                                                  PosesPart(to_.poses).subspan(column, columns), row == 0,
-                                                  request_.robot, request_.zones);
+                                            PosesPart(to_.poses).subspan(column, columns), row == 0,
+                                            request_.robot, request_.zones);
                     const auto made = core::Problem::create(request_.map, std::move(robots),
                                                             conditions_of(request_.options, request_.zones),
                                                             work.reading());
@@ -156,9 +156,9 @@ class PoseCheck {
       const bool is_start = found.kind == core::ProblemFault::Kind::start_in_obstacle;
       if (is_start ? column > 0 : row > 0 || found.robot > 0) continue;
       const JsonReader& place = is_start ? from_.places[row + found.robot] : to_.places[column + found.goal];
-      place.fault(is_start ? fault::kStartInObstacle : fault::kGoalInObstacle,
-                  describe_pose(found, place, request_.robot.radius, request_.zones, request_.map->grid(),
-                                frame_));
+      place.fault(
+          is_start ? fault::kStartInObstacle : fault::kGoalInObstacle,
+          describe_pose(found, place, request_.robot.radius, request_.zones, request_.map->grid(), frame_));
     }
   }
 
@@ -222,16 +222,17 @@ std::optional<core::TravelAnswers> matrix_times(const MatrixRequest& request, co
   const PosesPart to = request.to.distinct;
   core::TravelAnswers answers(to.size(), std::vector<std::optional<core::Travel>>(from.size()));
   const bool finished = for_each_part(
-      from.size(), to.size(), [&](std::size_t row, std::size_t rows, std::size_t column, std::size_t columns) {
+      from.size(), to.size(),
+      [&](std::size_t row, std::size_t rows, std::size_t column, std::size_t columns) {
         const PosesPart starts = from.subspan(row, rows);
         const PosesPart goals = to.subspan(column, columns);
-        auto made = core::Problem::create(request.map,
-                                          robots_at(starts, goals, false, request.robot, request.zones),
-                                          conditions_of(request.options, request.zones), stop);
+        auto made =
+            core::Problem::create(request.map, robots_at(starts, goals, false, request.robot, request.zones),
+                                  conditions_of(request.options, request.zones), stop);
         const auto* problem = std::get_if<core::Problem>(&made);
         if (problem == nullptr) return false;  // it was stopped, as the poses have been checked
-        auto part = core::travel_times(*problem, request.options, questions_of(starts, goals), stop, executor,
-                                       go_on);
+        auto part =
+            core::travel_times(*problem, request.options, questions_of(starts, goals), stop, executor, go_on);
         if (!part) return false;
         for (std::size_t k = 0; k < columns; ++k) {
           std::move((*part)[k].begin(), (*part)[k].end(),

@@ -161,7 +161,8 @@ std::string in_lines(const api::Reply& reply, const std::string& request) {
   const auto faults = problem.value("errors", Json::array());
   if (faults.empty()) return line(problem.value("detail", ""));
   std::string lines;
-  for (const Json& fault : faults) lines += line(fault.value("pointer", "") + ": " + fault.value("detail", ""));
+  for (const Json& fault : faults)
+    lines += line(fault.value("pointer", "") + ": " + fault.value("detail", ""));
   const std::size_t total = problem.value("errors_total", faults.size());
   if (total > faults.size()) lines += line("and " + std::to_string(total - faults.size()) + " more faults");
   return lines;

@@ -135,8 +135,8 @@ class Connection {
   std::optional<UnderWay> under_way_;
   HeadScanner scanner_;
   std::size_t empty_line_bytes_ = 0;  // bytes of empty lines before the request
-  std::optional<BodyReader> body_;  // body of the exchange; later that of a refused one, to be dropped
-  std::uint64_t body_bytes_ = 0;    // bytes of the body when the deadline was set
+  std::optional<BodyReader> body_;    // body of the exchange; later that of a refused one, to be dropped
+  std::uint64_t body_bytes_ = 0;      // bytes of the body when the deadline was set
   Sent sent_;
   std::optional<WritePatience> write_patience_;
 };

@@ -229,7 +229,8 @@ TEST(MatrixEndpoint, AnswersOneLongListWithinItsMemory) {
     const Reply reply = matrix_endpoint(request.dump(), small);
     ASSERT_EQ(reply.status, 200) << reply.body;
     const Json answer = json_of(reply);
-    for (const std::size_t k : {std::size_t{0}, std::size_t{9'999}, std::size_t{10'000}, std::size_t{24'999}}) {
+    for (const std::size_t k :
+         {std::size_t{0}, std::size_t{9'999}, std::size_t{10'000}, std::size_t{24'999}}) {
       Json single = request;
       single[list] = Json::array({request[list][k]});
       const Json& row = answer["seconds"];

@@ -44,11 +44,11 @@ TEST(Printable, EscapesWhatTerminalsAndPicturesMustNotHave) {
       {"\U0001fffe\U000e0041\U0010ffff", "\\ud83f\\udffe\\udb40\\udc41\\udbff\\udfff"},
       {"\x9b"
        "31m",
-       "\ufffd31m"},                                              // C1 as a byte
-      {"a\xc2", "a\ufffd"},                                       // cut off
-      {"\xc1\x9b", "\ufffd\ufffd"},                               // overlong
-      {"\xed\xa0\x80", "\ufffd\ufffd\ufffd"},                     // a surrogate
-      {"\xf4\x90\x80\x80", "\ufffd\ufffd\ufffd\ufffd"},           // beyond Unicode
+       "\ufffd31m"},                                     // C1 as a byte
+      {"a\xc2", "a\ufffd"},                              // cut off
+      {"\xc1\x9b", "\ufffd\ufffd"},                      // overlong
+      {"\xed\xa0\x80", "\ufffd\ufffd\ufffd"},            // a surrogate
+      {"\xf4\x90\x80\x80", "\ufffd\ufffd\ufffd\ufffd"},  // beyond Unicode
       {"\xe2\x80", "\ufffd\ufffd"},
   };
   for (const Case& one : cases) {

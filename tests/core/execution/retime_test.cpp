@@ -58,8 +58,8 @@ TEST_F(Retime, EndsWhileItReadsThatARobotDependsManyTimes) {
   const auto expected = times({}, {});
   dependencies_.resize(100'000, dependencies_.front());
   support::StepLimit limit(100);
-  EXPECT_FALSE(retime(robots_, executed_actions(robots_, plans_), dependencies_, {}, {},
-                      support::counted(limit)));
+  EXPECT_FALSE(
+      retime(robots_, executed_actions(robots_, plans_), dependencies_, {}, {}, support::counted(limit)));
   EXPECT_LT(limit.late(), 10);
   const auto found = times({}, {});
   for (std::size_t k = 0; k < 2; ++k) EXPECT_EQ(found[k].ends, expected[k].ends);

@@ -275,16 +275,16 @@ TEST(SlowClient, EndsAtItsDeadlineWhateverItDrips) {
   const std::string chunked =
       "POST /v1/plan HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
       "Transfer-Encoding: chunked\r\n\r\n";
-  expect_end_of_drips("", "\r\n");                       // before a head
-  expect_end_of_drips(get + "\r\n", "\r\n");            // between requests
-  expect_end_of_drips("\r\n", "G");                      // in a request line
-  expect_end_of_drips(get, "A: b\r\n");                  // in a head
-  expect_end_of_drips(get + "A: ", "b");                  // in a field
-  expect_end_of_drips(chunked + "1;a", "b");              // in an extension
-  expect_end_of_drips(chunked + "1;a=\"", "b");           // in one in quotes
+  expect_end_of_drips("", "\r\n");                         // before a head
+  expect_end_of_drips(get + "\r\n", "\r\n");               // between requests
+  expect_end_of_drips("\r\n", "G");                        // in a request line
+  expect_end_of_drips(get, "A: b\r\n");                    // in a head
+  expect_end_of_drips(get + "A: ", "b");                   // in a field
+  expect_end_of_drips(chunked + "1;a", "b");               // in an extension
+  expect_end_of_drips(chunked + "1;a=\"", "b");            // in one in quotes
   expect_end_of_drips(chunked, "1;extension=1\r\na\r\n");  // chunks of one byte
-  expect_end_of_drips(chunked + "0\r\n", "A: b\r\n");   // in trailers
-  expect_end_of_drips(chunked + "0\r\nA:", "b");         // in a trailer
+  expect_end_of_drips(chunked + "0\r\n", "A: b\r\n");      // in trailers
+  expect_end_of_drips(chunked + "0\r\nA:", "b");           // in a trailer
 }
 
 TEST(SlowClient, ThatNeverStopsWithEmptyLinesIsRefused) {
