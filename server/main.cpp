@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "api/json/printable.h"
 #include "server/command/commands.h"
 #include "server/http_server.h"
 #include "server/ops/process.h"
@@ -117,7 +118,7 @@ int run(const Settings& settings, Service service) {
   raise_descriptor_limit();
   HttpServer server(settings, std::move(service));
   if (const auto fault = server.bind()) {
-    std::cerr << "fleetplan: " << *fault << '\n';
+    std::cerr << "fleetplan: " << api::printable(*fault) << '\n';
     return 1;
   }
   const RequestLog& log = server.log();
@@ -159,6 +160,6 @@ int main(int argc, char** argv) {
     return run(settings, std::move(service));
   }
   const auto fault = health_fault(settings);
-  if (fault) std::cerr << "fleetplan: " << *fault << '\n';
+  if (fault) std::cerr << "fleetplan: " << fleetplan::api::printable(*fault) << '\n';
   return fault ? 1 : 0;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
@@ -24,6 +25,7 @@
 #include "api/vda5050/import.h"
 #include "core/runtime/executor.h"
 #include "core/runtime/memory_account.h"
+#include "core/runtime/shared_turn.h"
 #include "core/runtime/stop_condition.h"
 #include "core/travel/travel_times.h"
 
@@ -161,23 +163,45 @@ Reply import_vda5050_endpoint(std::string_view body, const RequestContext& conte
 
 namespace {
 
+std::size_t cells_of(const core::OccupancyGrid& grid) {
+  return static_cast<std::size_t>(grid.columns()) * static_cast<std::size_t>(grid.rows());
+}
+
+/// How much is to be computed: a search of the map for each goal, and a short one for each way.
+struct TravelWork {
+  std::size_t ways = 0;
+  std::size_t goals = 0;
+  std::size_t cells = 0;  // of the map
+
+  bool is_short() const {
+    constexpr std::size_t kFewWays = 100;
+    constexpr std::size_t kFewCells = 1'000'000;
+    return ways <= kFewWays && goals * cells <= kFewCells;
+  }
+  /// Proportional to the expected time, at least 1.
+  double amount() const {
+    constexpr double kCellsOfAWay = 100.0;
+    return 1.0 + static_cast<double>(goals) * static_cast<double>(cells) +
+           kCellsOfAWay * static_cast<double>(ways);
+  }
+};
+
 /// The computation of travel times for one request, in its turn. A reply that it has instead of an answer is
 /// kept until the reading of the body has ended.
 class Travelling {
  public:
   Travelling(const RequestContext& context, core::Work& work) : context_(context), work_(work) {}
 
-  /// Waits for the turn of a request of so many pairs; returns false if it does not come.
-  bool begin(std::size_t pairs, std::chrono::nanoseconds budget) {
+  /// Waits for the turn of a request; returns false if it does not come.
+  bool begin(const TravelWork& effort, std::chrono::nanoseconds budget) {
     constexpr std::chrono::milliseconds kAnswerTime{100};
-    constexpr std::size_t kFewPairs = 100;
     budget_ = budget;
     stop_ = work_.before_end(std::min<std::chrono::nanoseconds>(budget / 10, kAnswerTime));
     const TurnNeed need{.kind = TurnNeed::Kind::travel,
                         .stop = *stop_,
                         .answer_by = stop_->deadline(),
-                        .work = static_cast<double>(std::max<std::size_t>(1, pairs)),
-                        .is_short = pairs <= kFewPairs};
+                        .work = effort.amount(),
+                        .is_short = effort.is_short()};
     if (take_turn(context_.turn, need, work_)) return true;
     if (!work_.cancelled()) reply_ = too_busy(context_.request_id);
     return false;
@@ -229,11 +253,12 @@ Reply matrix_endpoint(std::string_view body, const RequestContext& context) {
   const auto matrix = [&](const JsonReader& root, core::Work& work,
                           Travelling& travelling) -> std::optional<std::string> {
     const auto request = parse_matrix_request(root, context.limits, work, context.maps);
-    if (!request || !travelling.begin(request->rows() * request->columns(), request->budget)) {
-      return std::nullopt;
-    }
-    const auto answers = core::travel_times(request->problem, request->options, request->questions,
-                                            travelling.stop(), travelling.executor(), travelling.go_on());
+    if (!request) return std::nullopt;
+    const TravelWork effort{.ways = request->from.distinct.size() * request->to.distinct.size(),
+                            .goals = request->to.distinct.size(),
+                            .cells = cells_of(request->map->grid())};
+    if (!travelling.begin(effort, request->budget)) return std::nullopt;
+    const auto answers = matrix_times(*request, travelling.stop(), travelling.executor(), travelling.go_on());
     auto text = answers ? write_matrix(*request, *answers, work.before_end()) : std::nullopt;
     return text ? std::move(text) : travelling.unfinished(kWhat, "poses");
   };
@@ -246,9 +271,10 @@ Reply assign_endpoint(std::string_view body, const RequestContext& context) {
     const auto request = parse_assign_request(root, context.limits, work, context.maps);
     if (!request) return std::nullopt;
     const PlanRequest& plan = request->plan;
-    if (!travelling.begin(plan.problem.robots().size() * request->tasks.size(), plan.budget)) {
-      return std::nullopt;
-    }
+    const TravelWork effort{.ways = plan.problem.robots().size() * request->tasks.size(),
+                            .goals = request->tasks.size(),
+                            .cells = cells_of(plan.problem.grid())};
+    if (!travelling.begin(effort, plan.budget)) return std::nullopt;
     const auto arrivals = core::arrivals(plan.problem, plan.options, request->tasks, travelling.stop(),
                                          travelling.executor(), travelling.go_on());
     const auto tasks = arrivals ? assigned(*request, *arrivals, travelling.stop()) : std::nullopt;
@@ -329,21 +355,27 @@ struct Runs {
   RequestContext::Clock::duration waited = RequestContext::Clock::duration::zero();
 };
 
-/// Executes the runs in the caller's thread and, if they are idle, in others. Lets others have their turns in
-/// between.
+/// Executes the runs in the caller's thread and, if they are idle, in others. Lets others have their turns
+/// meanwhile, as soon as one run is done.
 Runs run_all(const core::SimulatedFleet& fleet, const SimulateRequest& request,
              const core::StopCondition& stop, const RequestContext& context) {
   core::CallerThread callers_thread;
   core::Executor& executor = context.executor != nullptr ? *context.executor : callers_thread;
   Runs runs;
-  const auto go_on = [&](const core::SimulationProgress& progress) {
-    if (context.events != nullptr) context.events->progress({request.robots.size(), {}, progress});
+  std::atomic<bool> any_done = false;
+  core::SharedTurn turn(stop, [&] {
+    if (!any_done || context.turn == nullptr) return true;
     const auto before = RequestContext::Clock::now();
-    const bool goes_on = progress.done == 0 || context.turn == nullptr || context.turn->let_others();
+    const bool goes_on = context.turn->let_others();
     runs.waited += RequestContext::Clock::now() - before;
     return goes_on;
+  });
+  const auto go_on = [&](const core::SimulationProgress& progress) {
+    if (context.events != nullptr) context.events->progress({request.robots.size(), {}, progress});
+    any_done = progress.done > 0;
+    return turn.share();
   };
-  runs.report = core::simulate(fleet, request.settings, stop, executor, go_on);
+  runs.report = core::simulate(fleet, request.settings, turn.stop(), executor, go_on);
   return runs;
 }
 

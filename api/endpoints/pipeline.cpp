@@ -12,6 +12,7 @@
 #include "api/request/parse_body.h"
 #include "core/execution/dependencies.h"
 #include "core/runtime/memory_account.h"
+#include "core/runtime/memory_lack.h"
 
 namespace fleetplan::api {
 
@@ -28,13 +29,15 @@ constexpr std::size_t kShortBody = 1 << 20;
 Reply bounded_work(const RequestContext& context, const std::function<Reply(core::Work&)>& endpoint) {
   core::Work work({context.stop, context.received_at, context.limits.max_plan_memory, context.cpu_clock,
                    context.early_end});
+  const std::int64_t lacks = core::memory_lacks();
   try {
     const core::MemoryScope scope(work.memory().get());
     Reply reply = endpoint(work);
     if (work.memory()->used() > kMuchMemory) reply.leftovers = work.memory();
     return reply;
   } catch (const std::bad_alloc&) {
-    return memory_exceeded(context);
+    const bool is_refused = work.memory()->shortages() > 0 && core::memory_lacks() == lacks;
+    return is_refused ? memory_exceeded(context) : out_of_memory(context.request_id);
   }
 }
 
@@ -45,6 +48,12 @@ Reply memory_exceeded(const RequestContext& context) {
                            " MiB of memory, max_plan_memory of /v1/limits: send fewer robots or a map with "
                            "fewer cells.",
                        context.request_id);
+}
+
+Reply out_of_memory(const std::string& request_id) {
+  return problem_reply(ErrorCode::overloaded,
+                       "The service has no memory left for this request at the moment: try again later.",
+                       request_id);
 }
 
 bool take_turn(Turn* turn, const TurnNeed& need, core::Work& work) {

@@ -26,11 +26,15 @@ namespace fleetplan::api {
 
 /// Runs an endpoint and returns its reply. All of its work is bounded by the Work that it gets: from the
 /// first byte of the body to the last byte of the answer's text. It is granted `max_plan_memory`; the reply
-/// is 422 `memory_exceeded` if it needs more. The reply keeps the memory that is still in use, if it is much.
+/// is 422 `memory_exceeded` if it needs more, and 503 `overloaded` if the process lacks what is granted. The
+/// reply keeps the memory that is still in use, if it is much.
 Reply bounded_work(const RequestContext& context, const std::function<Reply(core::Work&)>& endpoint);
 
 /// Returns the 422 for a request that needs more memory than it is granted.
 Reply memory_exceeded(const RequestContext& context);
+
+/// Returns the 503 for a request for which the process has no memory at the moment.
+Reply out_of_memory(const std::string& request_id);
 
 /// Asks for the turn of a request that has been read, and waits for it. Returns whether it came; true at once
 /// without a Turn.

@@ -21,6 +21,7 @@
 #include "core/model/plan.h"
 #include "core/replan/kept_plans.h"
 #include "core/runtime/executor.h"
+#include "core/runtime/memory_lack.h"
 #include "core/runtime/stop_condition.h"
 #include "core/travel/goal_choice.h"
 #include "core/verify/verify.h"
@@ -278,9 +279,11 @@ core::StopCondition end_of_planning(const core::StopCondition& stop, const PlanR
 /// Returns the planner's plan, or one that needs no search if the memory does not suffice for any other.
 core::Plan plan_or_none(const Planner& planner, const PlanRequest& request, const core::StopCondition& stop,
                         core::Observer* observer) {
+  const std::int64_t lacks = core::memory_lacks();
   try {
     return planner(request.problem, request.options, stop, observer);
   } catch (const std::bad_alloc&) {
+    if (core::memory_lacks() > lacks) throw;
     const auto patience =
         stop.even_if_cancelled(std::max(stop.deadline(), Clock::now()) + core::kMostForPrevious);
     return core::plan_without_search(request.problem, request.options, core::kMemorySpent,

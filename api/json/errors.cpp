@@ -286,7 +286,7 @@ constexpr std::array<ErrorRow, 21> kTable{{
      "A bug of the service, such as a plan that its checker rejected."},
     {ErrorCode::overloaded, 503, "overloaded", "Service Unavailable",
      "The queue is full, the time budget would be spent in the queue, or the large bodies being received "
-     "would take too much memory together."},
+     "would take too much memory together, or the process has no memory left."},
     {ErrorCode::draining, 503, "draining", "Service Unavailable", "The service is shutting down."},
 }};
 

@@ -11,6 +11,8 @@
 #include <sstream>
 #include <vector>
 
+#include "api/json/printable.h"
+
 namespace fleetplan::api {
 
 namespace {
@@ -113,7 +115,7 @@ class Picture {
 
   void add_title(const std::string& title) {
     text_ << "<title>";
-    for (const char c : title) {
+    for (const char c : printable(title)) {
       switch (c) {
         case '&':
           text_ << "&amp;";

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <numeric>
+#include <span>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 #include <variant>
@@ -24,9 +27,12 @@ namespace fleetplan::api {
 
 namespace {
 
+/// The most poses of a list that are looked at at a time.
+constexpr std::size_t kPosesOfAPart = 10'000;
+
 /// Poses of a list, as far as they could be read.
 struct Poses {
-  std::vector<core::Goal> poses;
+  std::vector<MatrixPose> poses;
   std::vector<JsonReader> places;
 };
 
@@ -38,10 +44,24 @@ Poses parse_poses(const JsonReader& list, const char* name, const WorldFrame& fr
   for (const JsonReader item : items.items()) {
     const auto pose = parse_plain_pose(item, frame);
     if (!pose) continue;
-    read.poses.push_back(*pose);
+    read.poses.push_back({pose->position, pose->theta});
     read.places.push_back(item);
   }
   return read;
+}
+
+MatrixPoses distinct(const std::vector<MatrixPose>& poses, core::Work& work) {
+  constexpr std::size_t kWorkOfAPose = 64;
+  MatrixPoses kept;
+  std::map<std::tuple<double, double, std::optional<double>>, std::uint32_t> known;
+  for (const MatrixPose& pose : poses) {
+    if (work.met_after(kWorkOfAPose)) break;
+    const auto next = static_cast<std::uint32_t>(kept.distinct.size());
+    const auto [found, is_new] = known.try_emplace({pose.position.x(), pose.position.y(), pose.theta}, next);
+    if (is_new) kept.distinct.push_back(pose);
+    kept.index.push_back(found->second);
+  }
+  return kept;
 }
 
 /// Returns whether there are not too many pairs.
@@ -62,43 +82,100 @@ std::vector<core::Zone> zones_of_robot(std::vector<core::Zone> zones) {
   return zones;
 }
 
-/// The robot at each pose of `from`. The first one has all poses of `to` as its goals, so that they are
-/// checked; the others have the last of them, as a robot that stays has no way out of zones.
-std::vector<core::Robot> robots_at(const Poses& from, const Poses& to, const core::Robot& like,
+using PosesPart = std::span<const MatrixPose>;
+
+core::Goal goal_at(const MatrixPose& pose) { return {pose.position, pose.theta}; }
+
+/// The robot at each pose of `from`. The first one has all poses of `to` as its goals if they are to be
+/// checked. Robots have the last of them where it matters, as one that stays has no way out of zones.
+std::vector<core::Robot> robots_at(PosesPart from, PosesPart to, bool checks_all, const core::Robot& like,
                                    const std::vector<core::Zone>& zones) {
   const bool any_to_leave =
       std::any_of(zones.begin(), zones.end(), [](const core::Zone& zone) { return zone.may_leave; });
   std::vector<core::Robot> robots;
-  for (const core::Goal& pose : from.poses) {
+  for (const MatrixPose& pose : from) {
     core::Robot& robot = robots.emplace_back(like);
     robot.start = {pose.position, pose.theta.value_or(0.0)};
-    if (any_to_leave) robot.goal = to.poses.back();
+    if (any_to_leave) robot.goal = goal_at(to.back());
   }
-  robots.front().via.assign(to.poses.begin(), to.poses.end() - 1);
-  robots.front().goal = to.poses.back();
+  robots.front().goal = goal_at(to.back());
+  if (!checks_all) return robots;
+  for (const MatrixPose& pose : to.first(to.size() - 1)) robots.front().via.push_back(goal_at(pose));
   return robots;
 }
 
-/// Reports the poses that the robot cannot have.
-void report(const core::ProblemFaults& faults, const Poses& from, const Poses& to, const core::Robot& robot,
-            const std::vector<core::Zone>& zones, const core::OccupancyGrid& grid, const WorldFrame& frame) {
-  for (const core::ProblemFault& found : faults.listed) {
-    const bool is_start = found.kind == core::ProblemFault::Kind::start_in_obstacle;
-    if (!is_start && found.robot > 0) continue;  // the same as that of the first robot
-    const JsonReader& place = is_start ? from.places[found.robot] : to.places[found.goal];
-    place.fault(is_start ? fault::kStartInObstacle : fault::kGoalInObstacle,
-                describe_pose(found, place, robot.radius, zones, grid, frame));
-  }
+core::ProblemConditions conditions_of(const core::PlanOptions& options,
+                                      const std::vector<core::Zone>& zones) {
+  core::ProblemConditions conditions = core::conditions_of(options);
+  conditions.zones = zones;
+  conditions.one_at_a_time = true;
+  return conditions;
 }
 
-core::TravelQuestions questions_of(const Poses& from, const Poses& to) {
+/// Calls `look` with the begins and sizes of parts of two lists, which make up all pairs. Returns false as
+/// soon as it does.
+template <typename Look>
+bool for_each_part(std::size_t rows, std::size_t columns, const Look& look) {
+  for (std::size_t row = 0; row < rows; row += kPosesOfAPart) {
+    for (std::size_t column = 0; column < columns; column += kPosesOfAPart) {
+      if (!look(row, std::min(kPosesOfAPart, rows - row), column, std::min(kPosesOfAPart, columns - column)))
+        return false;
+    }
+  }
+  return true;
+}
+
+/// Checks whether the robot can have the poses.
+class PoseCheck {
+ public:
+  PoseCheck(const MatrixRequest& request, const Poses& from, const Poses& to, const WorldFrame& frame)
+      : request_(request), from_(from), to_(to), frame_(frame) {}
+
+  /// Reports the poses that it cannot have as faults of `root`. Ends early if the work is met.
+  void run(const JsonReader& root, core::Work& work) const {
+    for_each_part(from_.poses.size(), to_.poses.size(),
+                  [&](std::size_t row, std::size_t rows, std::size_t column, std::size_t columns) {
+                    auto robots = robots_at(PosesPart(from_.poses).subspan(row, rows),
+                                            PosesPart(to_.poses).subspan(column, columns), row == 0,
+                                            request_.robot, request_.zones);
+                    const auto made = core::Problem::create(request_.map, std::move(robots),
+                                                            conditions_of(request_.options, request_.zones),
+                                                            work.reading());
+                    const auto* faults = std::get_if<core::ProblemFaults>(&made);
+                    if (faults == nullptr) return true;
+                    report(*faults, row, column);
+                    root.count_more_faults(faults->total - faults->listed.size());
+                    return faults->finished || !work.look();
+                  });
+  }
+
+ private:
+  /// Each pose is reported with the first part that it is in.
+  void report(const core::ProblemFaults& faults, std::size_t row, std::size_t column) const {
+    for (const core::ProblemFault& found : faults.listed) {
+      const bool is_start = found.kind == core::ProblemFault::Kind::start_in_obstacle;
+      if (is_start ? column > 0 : row > 0 || found.robot > 0) continue;
+      const JsonReader& place = is_start ? from_.places[row + found.robot] : to_.places[column + found.goal];
+      place.fault(
+          is_start ? fault::kStartInObstacle : fault::kGoalInObstacle,
+          describe_pose(found, place, request_.robot.radius, request_.zones, request_.map->grid(), frame_));
+    }
+  }
+
+  const MatrixRequest& request_;
+  const Poses& from_;
+  const Poses& to_;
+  const WorldFrame& frame_;
+};
+
+core::TravelQuestions questions_of(PosesPart from, PosesPart to) {
   core::TravelQuestions questions;
   std::vector<std::size_t> all;
-  for (const core::Goal& pose : from.poses) {
+  for (const MatrixPose& pose : from) {
     all.push_back(all.size());
     questions.any_heading.push_back(!pose.theta);
   }
-  for (const core::Goal& pose : to.poses) questions.columns.push_back({pose, all});
+  for (const MatrixPose& pose : to) questions.columns.push_back({goal_at(pose), all});
   return questions;
 }
 
@@ -124,24 +201,47 @@ std::optional<MatrixRequest> parse_matrix_request(const JsonReader& root, const 
   const auto static_map = maps != nullptr ? maps->map_of(std::move(map->grid), work.reading())
                                           : core::static_map(std::move(map->grid), work.reading());
   if (!static_map) return work.look(), std::nullopt;
-  core::ProblemConditions conditions = core::conditions_of(options.plan);
-  conditions.zones = zones;
-  conditions.one_at_a_time = true;
-  auto made = core::Problem::create(static_map, robots_at(from, to, robot.front().robot, zones),
-                                    std::move(conditions), work.reading());
-  if (const auto* faults = std::get_if<core::ProblemFaults>(&made)) {
-    if (!faults->finished) work.look();
-    report(*faults, from, to, robot.front().robot, zones, static_map->grid(), frame);
-    root.count_more_faults(faults->total - faults->listed.size());
-    return std::nullopt;
-  }
-  MatrixRequest request{.problem = std::move(std::get<core::Problem>(made)),
+  MatrixRequest request{.map = static_map,
+                        .robot = robot.front().robot,
+                        .zones = zones,
+                        .from = distinct(from.poses, work),
+                        .to = distinct(to.poses, work),
                         .options = options.plan,
-                        .questions = questions_of(from, to),
                         .budget = effective_budget(options, limits),
                         .warnings = std::move(options.warnings)};
+  PoseCheck(request, from, to, frame).run(root, work);
+  if (root.fault_count() > 0 || work.met()) return std::nullopt;
   if (auto warning = budget_warning(options, limits)) request.warnings.push_back(std::move(*warning));
   return request;
+}
+
+std::optional<core::TravelAnswers> matrix_times(const MatrixRequest& request, const core::StopCondition& stop,
+                                                core::Executor& executor,
+                                                const std::function<bool()>& go_on) {
+  const PosesPart from = request.from.distinct;
+  const PosesPart to = request.to.distinct;
+  core::TravelAnswers answers(to.size(), std::vector<std::optional<core::Travel>>(from.size()));
+  const bool finished = for_each_part(
+      from.size(), to.size(),
+      [&](std::size_t row, std::size_t rows, std::size_t column, std::size_t columns) {
+        const PosesPart starts = from.subspan(row, rows);
+        const PosesPart goals = to.subspan(column, columns);
+        auto made =
+            core::Problem::create(request.map, robots_at(starts, goals, false, request.robot, request.zones),
+                                  conditions_of(request.options, request.zones), stop);
+        const auto* problem = std::get_if<core::Problem>(&made);
+        if (problem == nullptr) return false;  // it was stopped, as the poses have been checked
+        auto part =
+            core::travel_times(*problem, request.options, questions_of(starts, goals), stop, executor, go_on);
+        if (!part) return false;
+        for (std::size_t k = 0; k < columns; ++k) {
+          std::move((*part)[k].begin(), (*part)[k].end(),
+                    answers[column + k].begin() + static_cast<std::ptrdiff_t>(row));
+        }
+        return true;
+      });
+  if (!finished) return std::nullopt;
+  return answers;
 }
 
 std::optional<std::string> write_matrix(const MatrixRequest& request, const core::TravelAnswers& answers,
@@ -153,11 +253,11 @@ std::optional<std::string> write_matrix(const MatrixRequest& request, const core
   for (const auto& [key, number] :
        {std::pair{"seconds", &core::Travel::seconds}, std::pair{"metres", &core::Travel::metres}}) {
     json.key(key).begin_array();
-    for (std::size_t row = 0; row < request.rows(); ++row) {
+    for (const std::uint32_t row : request.from.index) {
       if (stop.met()) return std::nullopt;
       json.begin_array();
-      for (const auto& column : answers) {
-        const std::optional<core::Travel>& way = column[row];
+      for (const std::uint32_t column : request.to.index) {
+        const std::optional<core::Travel>& way = answers[column][row];
         json.value(way ? std::optional((*way).*number) : std::nullopt);
       }
       json.end_array();

@@ -5,6 +5,9 @@
 #include <array>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,6 +20,7 @@
 #include "core/map/static_map.h"
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"
+#include "core/runtime/executor.h"
 #include "core/runtime/stop_condition.h"
 #include "core/travel/travel_times.h"
 
@@ -25,16 +29,31 @@ namespace fleetplan::api {
 inline constexpr std::array<std::string_view, 6> kMatrixMembers{"map",  "zones", "robot",
                                                                 "from", "to",    "options"};
 
+/// A pose in the map frame; without theta, in any heading.
+struct MatrixPose {
+  core::Position position{0.0, 0.0};
+  std::optional<double> theta;
+};
+
+/// The poses of a list, each kept once.
+struct MatrixPoses {
+  std::vector<MatrixPose> distinct;
+  std::vector<std::uint32_t> index;  // by item of the list: its pose
+};
+
 /// A valid body of POST /v1/matrix.
 struct MatrixRequest {
-  core::Problem problem;  // the robot once for each pose of `from`, one at a time, in the map frame
+  std::shared_ptr<const core::StaticMap> map;
+  core::Robot robot;
+  std::vector<core::Zone> zones;  // all are for the robot
+  MatrixPoses from;               // the rows
+  MatrixPoses to;                 // the columns
   core::PlanOptions options;
-  core::TravelQuestions questions;  // a column for each pose of `to`
   std::chrono::nanoseconds budget;
   std::vector<std::string> warnings;
 
-  std::size_t rows() const { return problem.robots().size(); }
-  std::size_t columns() const { return questions.columns.size(); }
+  std::size_t rows() const { return from.index.size(); }
+  std::size_t columns() const { return to.index.size(); }
 };
 
 /// Reads the root of the document. Returns none if it has faults, or if `work` is met. `maps`, which may be
@@ -42,7 +61,12 @@ struct MatrixRequest {
 std::optional<MatrixRequest> parse_matrix_request(const JsonReader& root, const Limits& limits,
                                                   core::Work& work, core::MapCache* maps);
 
-/// Returns the answer; none if `stop` is met first.
+/// Returns the travel times between distinct poses, by those of `to` and then of `from`; see
+/// core::travel_times. A part of the poses is looked at at a time, so that memory suffices for any number.
+std::optional<core::TravelAnswers> matrix_times(const MatrixRequest& request, const core::StopCondition& stop,
+                                                core::Executor& executor, const std::function<bool()>& go_on);
+
+/// Returns the answer, made of these times; none if `stop` is met first.
 std::optional<std::string> write_matrix(const MatrixRequest& request, const core::TravelAnswers& answers,
                                         const core::StopCondition& stop);
 

@@ -17,6 +17,7 @@ namespace {
 /// Seconds: rounding of times that were added up.
 constexpr double kOnTime = 1e-6;
 constexpr std::size_t kNobody = std::numeric_limits<std::size_t>::max();
+constexpr int kMarksBetweenPolls = 256;
 
 /// A gate of a robot, or a progress that others wait for.
 struct Mark {
@@ -73,14 +74,6 @@ class Forward {
       one.at = Pace(actions[k]).progress_at(rules.now);
     }
     for (const ObservedState& state : states) observe(state);
-    for (std::size_t k = 0; k < dependencies.size(); ++k) {
-      travellers_[dependencies[k].gate.robot].gates.push_back({whole(dependencies[k].gate), k});
-      travellers_[dependencies[k].until.robot].awaited.push_back({whole(dependencies[k].until), k});
-    }
-    for (Traveller& one : travellers_) {
-      std::sort(one.gates.begin(), one.gates.end(), earlier);
-      std::sort(one.awaited.begin(), one.awaited.end(), earlier);
-    }
     met_.resize(dependencies.size());
     waiting_.resize(dependencies.size(), kNobody);
   }
@@ -109,8 +102,27 @@ class Forward {
     if (planned < rules_.now - kOnTime) one.because_of = state.robot;
   }
 
+  /// Returns false if the stop condition is met.
+  bool add_marks(const StopCondition& stop) {
+    StopStride stride(stop, kMarksBetweenPolls);
+    for (std::size_t k = 0; k < dependencies_.size(); ++k) {
+      if (stride.met_at_step()) return false;
+      travellers_[dependencies_[k].gate.robot].gates.push_back({whole(dependencies_[k].gate), k});
+      travellers_[dependencies_[k].until.robot].awaited.push_back({whole(dependencies_[k].until), k});
+    }
+    for (Traveller& one : travellers_) {
+      for (std::vector<Mark>* marks : {&one.gates, &one.awaited}) {
+        if (stop.met()) return false;
+        if (!std::is_sorted(marks->begin(), marks->end(), earlier))
+          std::sort(marks->begin(), marks->end(), earlier);
+      }
+    }
+    return true;
+  }
+
   /// Prepares the robots, and begins the first move of each. Returns false if the stop condition is met.
   bool begin(const StopCondition& stop) {
+    if (!add_marks(stop)) return false;
     for (Traveller& one : travellers_) {
       if (stop.met()) return false;
       const auto first = std::min(static_cast<std::size_t>(one.at), one.actions.size());

@@ -9,6 +9,7 @@
 #include <new>
 
 #include "core/runtime/memory_account.h"
+#include "core/runtime/memory_lack.h"
 
 // ThreadSanitizer keeps its own functions: its suppressions for libraries that are not built for it see only
 // their direct callers.
@@ -34,8 +35,14 @@ constexpr std::size_t taken(std::size_t size) {
 }
 std::size_t taken_by(void* memory) noexcept { return malloc_usable_size(memory) + kLength; }
 
+void* lacking(std::size_t size) noexcept {
+  fleetplan::core::note_memory_lack(size);
+  return nullptr;
+}
+
 void* counted(void* memory, std::size_t bytes) noexcept {
-  if (memory == nullptr || memory_tally.charge(bytes)) return memory;
+  if (memory == nullptr) return lacking(bytes);
+  if (memory_tally.charge(bytes)) return memory;
   std::free(memory);
   return nullptr;
 }
@@ -45,7 +52,7 @@ void* allocate(std::size_t size) noexcept { return counted(std::malloc(size), ta
 void* allocate(std::size_t size, std::align_val_t alignment) noexcept {
   void* memory = nullptr;
   const auto at_least = std::max(static_cast<std::size_t>(alignment), sizeof(void*));
-  if (posix_memalign(&memory, at_least, size) != 0) return nullptr;
+  if (posix_memalign(&memory, at_least, size) != 0) return lacking(size);
   return counted(memory, taken_by(memory));
 }
 

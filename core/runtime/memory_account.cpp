@@ -1,5 +1,7 @@
 #include "core/runtime/memory_account.h"
 
+#include "core/runtime/memory_lack.h"
+
 namespace fleetplan::core {
 
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): see the header
@@ -35,6 +37,22 @@ bool MemoryTally::report_or_undo(std::size_t bytes) {
   }
   pending -= static_cast<std::int64_t>(bytes);
   return false;
+}
+
+namespace {
+
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): memory is that of the process
+constinit std::atomic<std::int64_t> lacks{0};
+
+}  // namespace
+
+std::int64_t memory_lacks() { return lacks.load(std::memory_order_relaxed); }
+
+void note_memory_lack(std::size_t bytes) {
+  const MemoryAccount* account = memory_tally.account;
+  const auto room = account == nullptr ? 0 : account->limit() - account->used() - memory_tally.pending;
+  const bool is_refused = account != nullptr && room < static_cast<std::int64_t>(bytes);
+  if (!is_refused) lacks.fetch_add(1, std::memory_order_relaxed);
 }
 
 void MemoryTally::report() {

@@ -1,10 +1,10 @@
 #include "core/travel/travel_times.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <tuple>
 #include <utility>
 #include <variant>
@@ -15,6 +15,7 @@
 #include "core/model/loads.h"
 #include "core/reservation/reservation_table.h"
 #include "core/runtime/memory_account.h"
+#include "core/runtime/shared_turn.h"
 #include "core/sipp/aa_sipp.h"
 #include "core/sipp/search_space.h"
 
@@ -22,8 +23,6 @@ namespace fleetplan::core {
 
 namespace {
 
-/// Columns that are computed until others may have the turn: enough for all threads.
-constexpr std::size_t kColumnsOfARound = 16;
 /// The limits of a search that finds the cheapest path that any of the planner's searches can be expected to
 /// find.
 constexpr SearchLimits kExact{
@@ -38,9 +37,11 @@ double metres_of(const Trajectory& trajectory) {
 /// What one thread needs for the ways of a column.
 class Travels {
  public:
-  Travels(const Problem& problem, const PlanOptions& options, const Instance* like, const StopCondition& stop)
-      : instance_(like == nullptr ? Instance(problem, options, stop)
-                                  : Instance(problem, options, like->fixed_reservations(), stop)),
+  /// `fixed`: the reservations of another instance of the same problem, or null.
+  Travels(const Problem& problem, const PlanOptions& options, std::shared_ptr<const FixedReservations> fixed,
+          const StopCondition& stop)
+      : instance_(fixed == nullptr ? Instance(problem, options, stop)
+                                   : Instance(problem, options, std::move(fixed), stop)),
         nobody_(problem.grid().width(), problem.grid().height(), problem.grid().width(),
                 std::vector<LargestDisk>(problem.robots().size(), instance_.stages(0).largest_disk())),
         search_(nobody_) {}
@@ -93,29 +94,61 @@ class Travels {
   AaSipp search_;
 };
 
+/// What the threads need that compute columns at the moment: as much as there are threads, not columns.
+class SpareTravels {
+ public:
+  SpareTravels(const Problem& problem, const PlanOptions& options, const StopCondition& stop)
+      : problem_(problem), options_(options), stop_(stop) {
+    spare_.push_back(std::make_unique<Travels>(problem, options, nullptr, stop));
+    fixed_ = spare_.front()->instance().fixed_reservations();
+  }
+
+  std::unique_ptr<Travels> take() {
+    {
+      const std::lock_guard lock(mutex_);
+      if (!spare_.empty()) {
+        auto one = std::move(spare_.back());
+        spare_.pop_back();
+        return one;
+      }
+    }
+    return std::make_unique<Travels>(problem_, options_, fixed_, stop_);
+  }
+
+  void give_back(std::unique_ptr<Travels> one) {
+    const std::lock_guard lock(mutex_);
+    spare_.push_back(std::move(one));
+  }
+
+ private:
+  const Problem& problem_;
+  const PlanOptions& options_;
+  const StopCondition& stop_;
+  std::shared_ptr<const FixedReservations> fixed_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Travels>> spare_;
+};
+
 }  // namespace
 
 std::optional<TravelAnswers> travel_times(const Problem& problem, const PlanOptions& options,
                                           const TravelQuestions& questions, const StopCondition& stop,
                                           Executor& executor, const std::function<bool()>& go_on) {
-  const StopCondition patience = stop.despite_memory();
+  SharedTurn turn(stop.despite_memory(), go_on);
+  const StopCondition patience = turn.stop();
   MemoryAccount* account = MemoryScope::current();
   TravelAnswers answers(questions.columns.size());
-  std::array<std::unique_ptr<Travels>, kColumnsOfARound> threads;  // by column of a round
-  threads.front() = std::make_unique<Travels>(problem, options, nullptr, patience);
-  const Instance* like = &threads.front()->instance();
+  SpareTravels travels(problem, options, patience);
   std::atomic<bool> is_cut = false;
-  for (std::size_t first = 0; first < answers.size() && !is_cut; first += kColumnsOfARound) {
-    if (go_on && !go_on()) return std::nullopt;
-    executor.run(std::min(kColumnsOfARound, answers.size() - first), [&](std::size_t k) {
-      const MemoryScope scope(account);
-      if (patience.met()) is_cut = true;
-      if (is_cut) return;
-      if (!threads[k]) threads[k] = std::make_unique<Travels>(problem, options, like, patience);
-      answers[first + k] = threads[k]->column(questions.columns[first + k], questions.any_heading, patience);
-      if (patience.met()) is_cut = true;
-    });
-  }
+  executor.run(answers.size(), [&](std::size_t k) {
+    const MemoryScope scope(account);
+    if (turn.met(false)) is_cut = true;
+    if (is_cut) return;
+    auto mine = travels.take();
+    answers[k] = mine->column(questions.columns[k], questions.any_heading, patience);
+    travels.give_back(std::move(mine));
+    if (turn.met(false)) is_cut = true;
+  });
   if (is_cut) return std::nullopt;
   return answers;
 }

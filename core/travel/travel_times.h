@@ -36,7 +36,7 @@ using TravelAnswers = std::vector<std::vector<std::optional<Travel>>>;
 
 /// Returns the fastest ways that the planner knows for robots that are alike and on the map one at a time
 /// (ProblemConditions). The goals of the problem's own robots do not matter. None if `stop` is met first, or
-/// if `go_on`, which is asked now and then by the caller's thread and may be empty, ends it.
+/// if `go_on`, which may be empty, ends it (SharedTurn).
 ///
 /// Each is the faster one of two ways of straight moves between the vertices of the robot's lattice, its
 /// start and the goal: that of a backward search from the goal (CostToGo), which all ways to this goal share

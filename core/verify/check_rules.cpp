@@ -57,19 +57,29 @@ void ViolationList::add(ViolationList more) {
 std::vector<Violation> ViolationList::take() {
   sort_and_cut();
   total_ = 0;
+  was_cut_ = false;
   return std::exchange(kept_, {});
 }
 
+namespace {
+
+bool is_before(const Violation& a, const Violation& b) {
+  return std::tie(a.t, a.kind, a.robots, a.obstacle) < std::tie(b.t, b.kind, b.robots, b.obstacle);
+}
+
+}  // namespace
+
 void ViolationList::keep(Violation violation) {
+  // Mostly they come by time, so that millions cost no more than these.
+  if (was_cut_ && !is_before(violation, kept_[kMostViolations - 1])) return;
   kept_.push_back(std::move(violation));
   if (kept_.size() >= 2 * kMostViolations) sort_and_cut();
 }
 
 void ViolationList::sort_and_cut() {
-  std::stable_sort(kept_.begin(), kept_.end(), [](const Violation& a, const Violation& b) {
-    return std::tie(a.t, a.kind, a.robots, a.obstacle) < std::tie(b.t, b.kind, b.robots, b.obstacle);
-  });
+  std::stable_sort(kept_.begin(), kept_.end(), is_before);
   if (kept_.size() > kMostViolations) {
+    was_cut_ = true;
     kept_.erase(kept_.begin() + static_cast<std::ptrdiff_t>(kMostViolations), kept_.end());
   }
 }

@@ -12,10 +12,12 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <ostream>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "api/json/printable.h"
 #include "api/response/draw_plan.h"
 #include "core/runtime/executor.h"
 #include "core/runtime/stop_condition.h"
@@ -26,7 +28,8 @@
 namespace fleetplan::server {
 
 InputFault input_fault(const std::string& file, std::size_t line, const std::string& detail) {
-  return {shown_name(file) + ':' + (line > 0 ? std::to_string(line) + ':' : "") + ' ' + detail};
+  const std::string where = shown_name(file) + ':' + (line > 0 ? std::to_string(line) + ':' : "");
+  return {api::printable(where + ' ' + detail)};
 }
 
 api::Result<std::string, InputFault> read_file(const std::string& name, std::istream& in, std::size_t most) {
@@ -58,7 +61,7 @@ bool write_file(const std::string& name, const std::string& text) {
 
 int write_output(const std::string& name, const std::string& text, const Streams& streams) {
   if (name.empty()) {
-    streams.out << text << std::flush;
+    streams.out << api::printable(text, api::Lines::kept) << std::flush;
   } else if (!write_file(name, text)) {
     return fail(streams, kFailed, "cannot write " + name);
   }
@@ -66,7 +69,7 @@ int write_output(const std::string& name, const std::string& text, const Streams
 }
 
 int fail(const Streams& streams, int code, const std::string& message) {
-  streams.err << "fleetplan: " << message << '\n';
+  streams.err << "fleetplan: " << api::printable(message) << '\n';
   return code;
 }
 
@@ -154,16 +157,14 @@ class TerminalProgress : public api::PlanEvents {
 /// Returns a refusal as lines for people: "robots.json: /robots/0/start: the disk overlaps a blocked cell".
 std::string in_lines(const api::Reply& reply, const std::string& request) {
   const Json problem = Json::parse(reply.body);
-  const std::string file = shown_name(request);
+  const auto line = [&](const std::string& text) { return input_fault(request, 0, text).line + '\n'; };
   const auto faults = problem.value("errors", Json::array());
-  if (faults.empty()) return file + ": " + problem.value("detail", "") + '\n';
+  if (faults.empty()) return line(problem.value("detail", ""));
   std::string lines;
-  for (const Json& fault : faults) {
-    lines += file + ": " + fault.value("pointer", "") + ": " + fault.value("detail", "") + '\n';
-  }
+  for (const Json& fault : faults)
+    lines += line(fault.value("pointer", "") + ": " + fault.value("detail", ""));
   const std::size_t total = problem.value("errors_total", faults.size());
-  if (total > faults.size())
-    lines += file + ": and " + std::to_string(total - faults.size()) + " more faults\n";
+  if (total > faults.size()) lines += line("and " + std::to_string(total - faults.size()) + " more faults");
   return lines;
 }
 
@@ -335,7 +336,9 @@ std::optional<int> run_command(std::vector<std::string> arguments,
   try {
     app.parse(std::move(arguments));
   } catch (const CLI::ParseError& error) {
-    const int code = app.exit(error, streams.out, streams.err);
+    std::ostringstream text;
+    const int code = app.exit(error, text, text);
+    (code == 0 ? streams.out : streams.err) << api::printable(text.str(), api::Lines::kept);
     return code == 0 ? kSolved : kBadInput;
   }
   if (word == "examples") return show_examples(parsed.example, make_service(), streams);

@@ -39,11 +39,12 @@ bool expects_continue(const RequestHead& head) {
   return !head.http_1_0 && lower_case(head.field("expect")) == "100-continue";
 }
 
-/// Skips empty lines before a request, which must be ignored (RFC 9112, 2.2).
-void skip_empty_lines(std::string& input) {
+/// Skips empty lines before a request, which must be ignored (RFC 9112, 2.2). Returns their bytes.
+std::size_t skip_empty_lines(std::string& input) {
   std::size_t end = 0;
   while (input.compare(end, 2, "\r\n") == 0) end += 2;
   input.erase(0, end);
+  return end;
 }
 
 }  // namespace
@@ -125,11 +126,17 @@ void Connection::begin_exchange() {
   exchange_->memory.emplace(context_.body_memory);
   exchange_->begun_at = Clock::now();
   scanner_ = {};
+  empty_line_bytes_ = 0;
   begin(Phase::head, exchange_->begun_at + context_.settings.read_timeout);
 }
 
 bool Connection::head() {
-  if (scanner_.size() == 0) skip_empty_lines(input_);
+  if (scanner_.size() == 0) empty_line_bytes_ += skip_empty_lines(input_);
+  if (empty_line_bytes_ > kMaxHeadBytes) {
+    exchange_->request_id = make_request_id();
+    refuse(ErrorCode::malformed_request, "There are too many empty lines before the request.");
+    return true;
+  }
   const bool in_empty_line = scanner_.size() == 0 && input_ == "\r";
   const auto state = in_empty_line ? HeadScanner::State::incomplete : scanner_.scan(input_);
   if (state == HeadScanner::State::incomplete && input_.size() <= kMaxHeadBytes) {
@@ -210,12 +217,12 @@ bool Connection::body() {
     case BodyReader::State::incomplete:
       break;
   }
-  const std::size_t kept = input_.size();
-  const Input input = receive();
-  if (input == Input::some) {
-    body_bytes_ += input_.size() - kept;
+  if (body_->size() > body_bytes_) {  // the sizes of chunks, extensions and trailers are no progress
+    body_bytes_ = body_->size();
     set_body_deadline();
-  } else if (input == Input::end) {
+  }
+  const Input input = receive();
+  if (input == Input::end) {
     refuse(malformed_body("The body ended early."));
   } else if (input == Input::stopped) {
     refuse({BodyFault::Kind::stopped, api::kDrainingDetail});

@@ -134,8 +134,9 @@ class Connection {
   std::optional<Exchange> exchange_;  // from the first byte of a request to the last one of its answer
   std::optional<UnderWay> under_way_;
   HeadScanner scanner_;
-  std::optional<BodyReader> body_;  // body of the exchange; later that of a refused one, to be dropped
-  std::uint64_t body_bytes_ = 0;    // bytes read, chunk sizes included
+  std::size_t empty_line_bytes_ = 0;  // bytes of empty lines before the request
+  std::optional<BodyReader> body_;    // body of the exchange; later that of a refused one, to be dropped
+  std::uint64_t body_bytes_ = 0;      // bytes of the body when the deadline was set
   Sent sent_;
   std::optional<WritePatience> write_patience_;
 };

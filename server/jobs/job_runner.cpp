@@ -144,12 +144,18 @@ std::size_t claimed_size(std::string_view coded) {
 }
 
 /// Returns the number of bytes to parse, by which slots are given. A coded body is as large as it claims, or
-/// as JSON that is coded is, as a rule, if that is more.
+/// as JSON that is coded is, as a rule, if that is more. A body that may have a PNG is none of the small
+/// ones: the image of a large map has some kilobytes, and takes a second.
 std::size_t bytes_to_parse(const Exchange& exchange, const api::Limits& limits) {
   constexpr std::size_t kRatio = 10;
-  if (!is_gzip(exchange)) return exchange.body.size();
-  return std::min<std::size_t>(std::max(kRatio * exchange.body.size(), claimed_size(exchange.body)),
-                               limits.max_body);
+  constexpr std::size_t kNotSmall = ParseSchedule::kSmall + 1;
+  const std::size_t size = exchange.body.size();
+  if (!is_gzip(exchange)) {
+    const bool may_have_png = size < kNotSmall && exchange.body.find("\"png\"") != std::string::npos;
+    return may_have_png ? kNotSmall : size;
+  }
+  const std::size_t claimed = std::max(kRatio * size, claimed_size(exchange.body));
+  return std::max(kNotSmall, std::min<std::size_t>(claimed, limits.max_body));
 }
 
 /// Decodes the exchange's body if it is coded.
@@ -238,7 +244,8 @@ api::Reply JobRunner::run(Exchange& exchange, const Service::Endpoint& endpoint,
   Workers::Job job(workers_, client);
   api::Reply reply =
       job.refusal() ? refused(exchange, *job.refusal()) : compute(exchange, endpoint, events, job, client);
-  if (job.refusal()) exchange.retry_after_s = workers_.retry_after_s();
+  const bool is_overloaded = reply.problem == api::name_of(api::ErrorCode::overloaded);
+  if (is_overloaded) exchange.retry_after_s = workers_.retry_after_s();
   if (reply.leftovers) disposal_.take(std::move(reply.leftovers));
   return reply;
 }

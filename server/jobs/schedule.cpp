@@ -19,6 +19,11 @@ constexpr double kLeastEnough = 2.0;
 constexpr double kDeviations = 4.0;
 constexpr double kWaitMargin = 1.5;
 
+/// Whether a job of this kind lets others have its turn while it goes on for long.
+bool shares_turns(Schedule::Kind kind) {
+  return kind == Schedule::Kind::simulation || kind == Schedule::Kind::travel;
+}
+
 /// Returns the time `seconds` before the deadline. Far deadlines have no exact difference to small times,
 /// which is harmless.
 Schedule::Time before(Schedule::Time deadline, double seconds) {
@@ -76,13 +81,12 @@ Schedule::Improvement Schedule::improve(Job& job, Time now) {
 }
 
 Schedule::Job* Schedule::share(Job& job, Time now) {
-  if (now - job.since < kLongTurn || paused() >= size_.workers) return nullptr;
-  const Job* other = next(job.in_lane, now);
-  if (other == nullptr || other->state != State::waiting) return nullptr;
   const bool lane = job.in_lane;
+  if (now - job.since < kLongTurn || next_to_share(lane, now) == nullptr) return nullptr;
   if (job.state == State::computing) learn(job, now);
   take_back(job);
-  Job* successor = hand_over(lane, now);
+  Job* successor = next_to_share(lane, now);
+  grant(*successor, lane, now);
   job.state = State::waiting;
   job.is_interrupted = true;
   job.latest_start = job.need.deadline;
@@ -122,12 +126,36 @@ bool Schedule::precedes(const Job& a, const Job& b) const {
   return rank(a) < rank(b);
 }
 
-/// Returns the job whose turn is next: the worker's, or the lane's.
+/// Whether a job that waits may have the turn of one that is interrupted for it.
+bool Schedule::may_take_over(const Job& job) const {
+  if (job.is_interrupted) return true;
+  return paused() < size_.workers + (shares_turns(job.need.kind) ? 0 : 1);
+}
+
+/// Returns the job that gets a turn which is shared, the worker's or the lane's; null if none may have it.
+Schedule::Job* Schedule::next_to_share(bool for_lane, Time now) const {
+  const auto precedes_in_sharing = [&](const Job& a, const Job& b) {
+    const bool differ = a.client == b.client && a.is_interrupted != b.is_interrupted;
+    return differ ? b.is_interrupted : precedes(a, b);
+  };
+  Job* best = nullptr;
+  for (Job* job : jobs_) {
+    if (job->state != State::waiting || job->latest_start <= now || !may_take_over(*job)) continue;
+    if (for_lane && !job->need.is_short) continue;
+    if (best == nullptr || precedes_in_sharing(*job, *best)) best = job;
+  }
+  return best;
+}
+
+/// Returns the job whose turn is next: the worker's, or the lane's. With more jobs interrupted than there are
+/// workers, it is one of these.
 Schedule::Job* Schedule::next(bool for_lane, Time now) const {
+  const bool is_full = paused() > size_.workers;
   Job* best = nullptr;
   for (Job* job : jobs_) {
     const bool waits = job->state == State::waiting && job->latest_start > now;
     if (!waits && job->state != State::paused) continue;
+    if (is_full && !job->is_interrupted && job->state != State::paused) continue;
     if (for_lane && !job->need.is_short) continue;
     if (best == nullptr || precedes(*job, *best)) best = job;
   }

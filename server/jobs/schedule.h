@@ -22,7 +22,10 @@ namespace fleetplan::server {
 ///   are paused as there are workers; further ones end with what they have.
 /// - **Long turns are shared.** A job that goes on for long, such as a simulation, gives its turn to one that
 ///   waits and gets one again in the order of turns, as if it had just asked. Nothing is lost of what it has
-///   done. It keeps its turn while as many jobs are paused or interrupted as there are workers.
+///   done. Jobs of a client that wait for their first turn get it before those that were interrupted. While
+///   as many jobs are paused or interrupted as there are workers, the turn goes only to one of these or, if
+///   there is not one more, to a job that does not share its own: so jobs that share their turns do not keep
+///   others out, however many they are.
 /// - **Order.** Turns go round the clients: next is the client with the fewest turns, then the one whose last
 ///   turn is the longest ago. Of a client's jobs, and of clients that have had no turn yet, the one with the
 ///   earliest deadline is next.
@@ -127,6 +130,8 @@ class Schedule {
 
   bool precedes(const Job& a, const Job& b) const;
   Job* next(bool for_lane, Time now) const;
+  bool may_take_over(const Job& job) const;
+  Job* next_to_share(bool for_lane, Time now) const;
   void grant(Job& job, bool lane, Time now);
   void take_back(Job& job);
   Job* hand_over(bool lane, Time now);

@@ -10,12 +10,15 @@
 #include <cmath>
 #include <condition_variable>
 #include <mutex>
+#include <new>
 #include <string_view>
 #include <thread>
 #include <utility>
 
+#include "api/endpoints/pipeline.h"
 #include "api/json/errors.h"
 #include "api/json/json_writer.h"
+#include "api/json/printable.h"
 
 namespace fleetplan::server {
 
@@ -152,7 +155,7 @@ void add_outcome(JsonWriter& line, const api::PlanOutcome& outcome) {
 }
 
 void write(spdlog::logger& logger, spdlog::level::level_enum level, JsonWriter& line) {
-  const std::string json = line.end_object().take();
+  const std::string json = api::printable(line.end_object().take());
   logger.log(level, spdlog::string_view_t(json.data() + 1, json.size() - 1));  // without the opening brace
 }
 
@@ -219,6 +222,9 @@ api::Reply internal_error(const RequestLog& log, const std::string& request_id,
   std::string what = "an exception of an unknown type";
   try {
     std::rethrow_exception(failure);
+  } catch (const std::bad_alloc&) {
+    log.warn("out of memory", {{"id", request_id}});
+    return api::out_of_memory(request_id);
   } catch (const std::exception& known) {
     what = known.what();
   } catch (...) {  // NOLINT(bugprone-empty-catch): reported below

@@ -15,6 +15,7 @@
 #include <system_error>
 #include <vector>
 
+#include "api/json/printable.h"
 #include "server/http/request/access.h"
 #include "server/http/static_files.h"
 #include "server/http/text.h"
@@ -141,7 +142,7 @@ class Flags {
     } catch (const CLI::ParseError& error) {
       std::ostringstream text;
       const int code = app_.exit(error, text, text);
-      return SettingsExit{code == 0 ? 0 : 2, text.str()};
+      return SettingsExit{code == 0 ? 0 : 2, api::printable(text.str(), api::Lines::kept)};
     }
     if (const auto ignored = ignored_environment(app_)) return bad(*ignored);
     if (config_option_->count() > 0) {
@@ -267,7 +268,7 @@ class Flags {
   }
 
   static SettingsExit bad(const std::string& message) {
-    return {2, message + "\nRun with --help for more information.\n"};
+    return {2, api::printable(message) + "\nRun with --help for more information.\n"};
   }
 
   CLI::App app_;

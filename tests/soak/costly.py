@@ -296,6 +296,13 @@ def travel_times(count):
     return {**body, "robot": ROBOT, "from": places, "to": places}
 
 
+def travel_times_on_a_large_map():
+    """500 x 500 poses on a map of 16 million cells, each column of which takes a second; the body has 55 kB."""
+    body = image_map(4000, 4000)
+    return {"map": body["map"], "robot": ROBOT, "from": [{"x": 2000.0 + k, "y": 2000.0} for k in range(500)],
+            "to": [{"x": 10.0 + k, "y": 20.0} for k in range(500)], "options": {"time_budget_ms": 15_000}}
+
+
 def many_tasks(count):
     """Tasks for one robot: as many as a body can have."""
     robots = [{"id": "a", "start": {"x": 1.5, "y": 1.5}}]

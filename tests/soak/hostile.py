@@ -148,6 +148,15 @@ def send_and_read(data):
     return act
 
 
+def flood(begin, data):
+    """Sends the same without end after a beginning."""
+    def act(socket_):
+        socket_.sendall(begin)
+        while True:
+            socket_.sendall(data)
+    return act
+
+
 def send_and_leave(data):
     return lambda socket_: socket_.sendall(data)
 
@@ -206,6 +215,12 @@ def attacks():
         ("3000 slow bodies", 3000, drip_rest(POST + b"Content-Length: 1000\r\n\r\n", b" " * 1000, 3)),
         ("3000 slow readers", 3000, never_read(request("GET", "/v1/examples/hall-100"))),
         ("slow heads", 200, drip(b"GET / HTTP/1.1\r\nHost: localhost\r\nX: " + b"y" * 1000, 0.5)),
+        ("slow empty lines", 200, drip(b"\r\n" * 1000, 0.5)),
+        ("slow extensions of chunks", 200, drip_rest(POST + b"Transfer-Encoding: chunked\r\n\r\n1;", b"a" * 1000, 0.5)),
+        ("slow trailers", 200, drip_rest(POST + b"Transfer-Encoding: chunked\r\n\r\n0\r\n", b"A: b\r\n" * 200, 0.5)),
+        ("empty lines without end", 8, flood(b"", b"\r\n" * 8192)),
+        ("empty lines after a request", 8, flood(request("GET", "/healthz"), b"\r\n" * 8192)),
+        ("chunks of a byte without end", 8, flood(POST + b"Transfer-Encoding: chunked\r\n\r\n", b"0000000000000001\r\n \r\n" * 400)),
         ("slow bodies", 200, drip(POST + b"Content-Length: 1000\r\n\r\n" + b" " * 1000, 0.5)),
         ("a scheme as request target", 8, send_and_read(b"GET http HTTP/1.1\r\nHost: localhost\r\n\r\n")),
         ("header floods", 8, send_and_read(heads)),
@@ -224,6 +239,7 @@ def attacks():
         ("1000 gzip streams at once", 1000, send_and_read(posted(streams, ("Content-Encoding", "gzip")))),
         ("4 simulations of rough ways", 4, send_and_read(rough)),
         ("4 masks of many parts", 4, send_and_read(masks)),
+        ("4 matrices on large maps", 4, send_and_read(costly.posted(costly.travel_times_on_a_large_map(), "/v1/matrix"))),
         ("half-closed clients", 8, half_closed(posted(small))),
         ("disconnect after sending", 8, send_and_leave(posted(small))),
         ("500 requests at once", 4, send_and_read(request("GET", "/healthz") * 500)),

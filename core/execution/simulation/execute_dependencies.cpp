@@ -48,21 +48,10 @@ class DependentExecution {
         stop_(stop),
         robots_(planned.plans.size()),
         opens_(planned.dependencies.size()),
-        waiting_(planned.dependencies.size(), kNobody) {
-    for (std::size_t k = 0; k < planned.dependencies.size(); ++k) {
-      const Dependency& dependency = planned.dependencies[k];
-      robots_[dependency.gate.robot].gates.push_back({place_of(dependency.gate), k});
-      robots_[dependency.until.robot].awaited.push_back({as_reached(dependency.until), k});
-    }
-    for (Robot& robot : robots_) {
-      for (std::vector<Mark>* marks : {&robot.gates, &robot.awaited}) {
-        std::stable_sort(marks->begin(), marks->end(),
-                         [](const Mark& a, const Mark& b) { return a.place < b.place; });
-      }
-    }
-  }
+        waiting_(planned.dependencies.size(), kNobody) {}
 
   std::optional<std::vector<ExecutedProgress>> run() {
+    if (!add_marks()) return std::nullopt;
     ready_.resize(robots_.size());
     for (std::size_t k = 0; k < ready_.size(); ++k) ready_[k] = k;
     while (!ready_.empty() || !events_.empty()) {
@@ -122,6 +111,26 @@ class DependentExecution {
       return std::tie(t, robot, number) > std::tie(other.t, other.robot, other.number);
     }
   };
+
+  /// Returns false if the stop condition is met.
+  bool add_marks() {
+    for (std::size_t k = 0; k < planned_.dependencies.size(); ++k) {
+      if (stops_after(1)) return false;
+      const Dependency& dependency = planned_.dependencies[k];
+      robots_[dependency.gate.robot].gates.push_back({place_of(dependency.gate), k});
+      robots_[dependency.until.robot].awaited.push_back({as_reached(dependency.until), k});
+    }
+    const auto is_earlier = [](const Mark& a, const Mark& b) { return a.place < b.place; };
+    for (Robot& robot : robots_) {
+      for (std::vector<Mark>* marks : {&robot.gates, &robot.awaited}) {
+        if (stops_after(marks->size())) return false;
+        // As a rule they are, and so are any number of the same ones.
+        if (std::is_sorted(marks->begin(), marks->end(), is_earlier)) continue;
+        std::stable_sort(marks->begin(), marks->end(), is_earlier);
+      }
+    }
+    return true;
+  }
 
   /// Counts steps and looks at the stop condition once in many of them. Returns whether it was met.
   bool stops_after(std::size_t steps) {

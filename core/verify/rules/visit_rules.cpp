@@ -203,6 +203,7 @@ class VisitCheck {
     }
     double earliest = 0.0;
     for (std::size_t k = 0; k < plan_.visits.size(); ++k) {
+      if (stop_.met()) return;
       const Visit& visit = plan_.visits[k];
       if (const auto wrong = wrong_claim(visit, k, earliest)) {
         report(usable_time(visit.t_arrive), usable_time(visit.t_arrive), earliest,

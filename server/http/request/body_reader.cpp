@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <new>
 #include <utility>
 
 #include "server/http/request/request_head.h"
@@ -183,7 +184,11 @@ BodyReader::State BodyReader::take_data(std::string_view input) {
   const auto size = std::min<std::uint64_t>(left_, input.size() - taken_);
   if (share_ != nullptr) {
     if (!share_->grow_to(size_ + size)) return fail({BodyFault::Kind::no_room, BodyMemory::kFull});
-    body_.append(input, taken_, size);
+    try {
+      body_.append(input, taken_, size);
+    } catch (const std::bad_alloc&) {
+      return fail({BodyFault::Kind::no_room, BodyMemory::kFull});
+    }
   }
   taken_ += size;
   size_ += size;

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <new>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,40 @@ TEST(BoundedWork, RejectsWorkThatNeedsMoreThanItsLimit) {
   EXPECT_EQ(json_of(reply)["request_id"], "test-7");
   EXPECT_THAT(json_of(reply)["detail"].get<std::string>(), HasSubstr("8 MiB"));
 }
+
+#if !defined(FLEETPLAN_ADDRESS_SANITIZER) && !defined(FLEETPLAN_THREAD_SANITIZER)  // they end the process
+/// More than any process has.
+constexpr std::size_t kMebibytesOfNone = std::size_t{1} << 30;
+
+TEST(BoundedWork, IsPutOffWhenTheProcessHasNoMemoryForWhatIsGranted) {
+  for (const bool any_refused : {false, true}) {
+    const Reply reply = bounded_work(context_with(2 * kMebibytesOfNone), [&](core::Work& /*work*/) {
+      if (any_refused) EXPECT_THROW(block(4 * kMebibytesOfNone), std::bad_alloc);
+      block(kMebibytesOfNone);
+      return Reply{};
+    });
+    EXPECT_EQ(reply.status, 503);
+    EXPECT_EQ(json_of(reply)["code"], "overloaded");
+  }
+}
+
+TEST(BoundedWork, IsRefusedWhenItNeedsMoreThanItsLimitAndTheProcessHasLessAnyway) {
+  const Reply reply = bounded_work(context_with(8), [](core::Work& /*work*/) {
+    block(kMebibytesOfNone);
+    return Reply{};
+  });
+  EXPECT_EQ(json_of(reply)["code"], "memory_exceeded");
+}
+
+TEST(BoundedWork, PutsAPlanOffWhenTheProcessHasNoMemory) {
+  const Planner planner = [](const auto&, const auto&, const auto&, auto*) -> core::Plan {
+    block(kMebibytesOfNone);
+    return {};
+  };
+  const Reply reply = plan_with(planner, swap_request().dump(), context_with(2 * kMebibytesOfNone));
+  EXPECT_EQ(json_of(reply)["code"], "overloaded");
+}
+#endif
 
 TEST(BoundedWork, LeavesMuchMemoryToBeFreedAfterTheAnswer) {
   const Reply large = bounded_work(context_with(64), [](core::Work& /*work*/) {

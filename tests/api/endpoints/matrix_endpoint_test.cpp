@@ -7,6 +7,7 @@
 
 #include "api/endpoints/endpoints.h"
 #include "tests/api/support/requests.h"
+#include "tests/api/support/test_turn.h"
 
 namespace fleetplan::api {
 namespace TEST_FILE {
@@ -183,6 +184,79 @@ TEST(MatrixEndpoint, NeedsPosesAndNotTooMany) {
   request["to"] = Json(500, request["to"][0]);
   EXPECT_THAT(faults(request), ElementsAre(Pair("/to", "out_of_range")));
   EXPECT_THAT(detail(request), HasSubstr("501 x 500"));
+}
+
+TEST(MatrixEndpoint, AnswersEachPoseOfAListThatRepeatsSome) {
+  const Json once = answer_to(hall());
+  Json request = hall();
+  const Json from = request["from"];
+  const Json to = request["to"];
+  request["from"] = Json::array({from[1], from[0], from[1]});
+  request["to"] = Json::array({to[2], to[0], to[1], to[0]});
+  const Json all = answer_to(request);
+  const std::vector<std::size_t> rows{1, 0, 1};
+  const std::vector<std::size_t> columns{2, 0, 1, 0};
+  for (const char* key : {"seconds", "metres"}) {
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+      for (std::size_t column = 0; column < columns.size(); ++column) {
+        EXPECT_EQ(all[key][row][column], once[key][rows[row]][columns[column]]);
+      }
+    }
+  }
+}
+
+/// A list of different poses in the left half of the hall.
+Json many_poses(std::size_t count) {
+  Json poses = Json::array();
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto part = static_cast<double>(k) / static_cast<double>(count);
+    poses.push_back({{"x", 0.5 + 3.0 * part}, {"y", 0.5 + static_cast<double>(k % 7) * 0.5}});
+  }
+  return poses;
+}
+
+/// As many poses in one list, and as little memory, as one in ten of the most that a service accepts.
+TEST(MatrixEndpoint, AnswersOneLongListWithinItsMemory) {
+  RequestContext small = context();
+  small.limits.max_plan_memory /= 10;
+  for (const char* list : {"from", "to"}) {
+    Json request = hall();
+    const Json one = Json::array({request["from"][0]});
+    request["from"] = one;
+    request["to"] = one;
+    request[list] = many_poses(25'000);
+    request["options"] = {{"time_budget_ms", 120'000}};
+    const Reply reply = matrix_endpoint(request.dump(), small);
+    ASSERT_EQ(reply.status, 200) << reply.body;
+    const Json answer = json_of(reply);
+    for (const std::size_t k :
+         {std::size_t{0}, std::size_t{9'999}, std::size_t{10'000}, std::size_t{24'999}}) {
+      Json single = request;
+      single[list] = Json::array({request[list][k]});
+      const Json& row = answer["seconds"];
+      EXPECT_EQ(list == std::string("from") ? row[k][0] : row[0][k], answer_to(single)["seconds"][0][0]);
+    }
+    request[list][24'000] = {{"x", 4.5}, {"y", 2.5}};
+    const std::string place = "/" + std::string(list) + "/24000";
+    const char* code = list == std::string("from") ? "start_in_obstacle" : "goal_in_obstacle";
+    EXPECT_THAT(faults_in(matrix_endpoint(request.dump(), small)), ElementsAre(Pair(place, code)));
+  }
+}
+
+/// However long one column takes, others get the turn meanwhile.
+TEST(MatrixEndpoint, SharesItsTurnWithinAColumn) {
+  Json request = hall();
+  request["map"] = {{"rows", Json(1500, std::string(1500, '.'))}};
+  request["from"] = Json::parse(R"([{"x": 1.0, "y": 1.0}])");
+  request["to"] = Json::parse(R"([{"x": 1499.0, "y": 1499.0}])");
+  request["options"] = {{"time_budget_ms", 100'000}};
+  RequestContext shared = context();
+  TestTurn turn;
+  int asked = 0;
+  turn.on_share = [&] { return ++asked < 2; };
+  shared.turn = &turn;
+  EXPECT_EQ(json_of(matrix_endpoint(request.dump(), shared))["code"], "check_unfinished");
+  EXPECT_EQ(asked, 2);
 }
 
 TEST(MatrixEndpoint, EndsWithTheBudget) {

@@ -6,6 +6,7 @@
 
 #include "core/execution/dependencies.h"
 #include "tests/support/plan_builder.h"
+#include "tests/support/step_limit.h"
 
 namespace fleetplan::core {
 namespace TEST_FILE {
@@ -50,6 +51,18 @@ TEST_F(Retime, WithoutDelaysGivesThePlannedTimes) {
       }
     }
   }
+}
+
+/// However many dependencies there are, the stop condition is asked soon, and sees nothing but more of them.
+TEST_F(Retime, EndsWhileItReadsThatARobotDependsManyTimes) {
+  const auto expected = times({}, {});
+  dependencies_.resize(100'000, dependencies_.front());
+  support::StepLimit limit(100);
+  EXPECT_FALSE(
+      retime(robots_, executed_actions(robots_, plans_), dependencies_, {}, {}, support::counted(limit)));
+  EXPECT_LT(limit.late(), 10);
+  const auto found = times({}, {});
+  for (std::size_t k = 0; k < 2; ++k) EXPECT_EQ(found[k].ends, expected[k].ends);
 }
 
 TEST_F(Retime, AHeldRobotDelaysThoseThatWaitForIt) {

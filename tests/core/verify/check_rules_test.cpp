@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <random>
+
 #include "core/geometry/tolerance.h"
 #include "tests/core/verify/scene.h"
 #include "tests/support/plain_check.h"
@@ -85,6 +88,22 @@ TEST(ViolationList, KeepsTheFirstByTimeAndCountsAll) {
   ASSERT_EQ(kept.size(), kMostViolations);
   EXPECT_EQ(kept.front().t, 1.0);
   EXPECT_EQ(kept.back().t, static_cast<double>(kMostViolations));
+}
+
+TEST(ViolationList, KeepsTheSameInWhateverOrderTheyCome) {
+  std::vector<double> times;
+  for (std::size_t k = 0; k < 5 * kMostViolations; ++k) times.push_back(static_cast<double>(k / 3));
+  std::mt19937 random(1);
+  for (int order = 0; order < 4; ++order) {
+    if (order == 1) std::reverse(times.begin(), times.end());
+    if (order > 1) std::shuffle(times.begin(), times.end(), random);
+    ViolationList list;
+    for (const double t : times) list.add(at(t));
+    EXPECT_EQ(list.total(), times.size());
+    const auto kept = list.take();
+    ASSERT_EQ(kept.size(), kMostViolations);
+    for (std::size_t k = 0; k < kept.size(); ++k) ASSERT_EQ(kept[k].t, static_cast<double>(k / 3));
+  }
 }
 
 TEST(ViolationList, CountsThoseOfAnotherListThatItDropped) {

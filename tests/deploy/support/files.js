@@ -56,6 +56,6 @@ export function bytesOf(size) {
 export function memoryOfReplica({ workers, maxBody, maxPlanMemory, mapCache, maxUnsent }) {
   const queue = 4 * workers;
   const bodies = bytesOf(maxBody) * (workers + queue + 1 + queue);
-  const plans = bytesOf(maxPlanMemory) * (3 * workers + 1);
+  const plans = bytesOf(maxPlanMemory) * (3 * workers + 2);
   return bytesOf("30MiB") + bodies + plans + bytesOf(mapCache) + bytesOf(maxUnsent);
 }

@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "api/json/printable.h"
+#include "core/runtime/random.h"
 #include "server/service/service.h"
 #include "tests/server/support/environment.h"
 #include "tests/support/temporary_file.h"
@@ -129,6 +131,98 @@ TEST(Commands, DrawAPlanWithoutMotionToo) {
   spent["options"]["time_budget_ms"] = 1;  // spent, as a rule, before planning begins
   run({"plan", "--svg", picture}, spent.dump());
   EXPECT_THAT(content(picture), HasSubstr("<title>b"));
+}
+
+/// What a terminal must not get, with a line feed, which must not begin a line of its own.
+const std::string kHostile = "\x1b]0;t\a\x1b[31m\u009b2J\u202e\u2066\x7f\nforged: line";
+
+TEST(Commands, ShowNoControlCharactersOfTheirInput) {
+  const support::TemporaryFolder folder;
+  const auto file = [&](const std::string& name, const std::string& text) {
+    std::ofstream(folder.path() / name) << text;
+    return (folder.path() / name).string();
+  };
+  const auto with = [](const auto& change) {
+    Json body = Json::parse(request("......."));
+    change(body);
+    return body.dump();
+  };
+  const std::string robots = file("r.csv", "id,radius\n");
+  const std::string in_yaml = R"(\e[31m\x9b\u202e)";
+  struct Case {
+    std::vector<std::string> arguments;
+    std::string input;
+  };
+  const std::vector<Case> cases{
+      {{"plan"}, with([](Json& body) { body["robots"][1]["id"] = body["robots"][0]["id"] = kHostile; })},
+      {{"plan"}, with([](Json& body) { body["options"]["mode"] = kHostile; })},
+      {{"plan"}, with([](Json& body) { body[kHostile] = 1; })},
+      {{"plan"}, with([](Json& body) { body["robots"][0][kHostile] = 1; })},
+      {{"plan"}, with([](Json& body) { body["robots"][0]["id"] = kHostile; })},
+      {{"plan"}, kHostile},
+      {{"plan", kHostile}, ""},
+      {{"plan", "-", "--" + kHostile}, ""},
+      {{"plan", "-", "--max-robots", kHostile}, ""},
+      {{"plan", "-", "-o", folder.path() / "none" / kHostile}, request(".......")},
+      {{"plan", "-", "--svg", folder.path() / "none" / kHostile}, request(".......")},
+      {{kHostile}, ""},
+      {{"examples", kHostile}, ""},
+      {{"map2request", kHostile, "--robots", robots}, ""},
+      {{"map2request", file("k.yaml", "\"x" + in_yaml + "\": 1\n"), "--robots", robots}, ""},
+      {{"map2request", file("i.yaml", "image: \"" + in_yaml + "\"\n"), "--robots", robots}, ""},
+      {{"map2request", file("m.yaml", "image: a\nmode: \"" + in_yaml + "\"\n"), "--robots", robots}, ""},
+      {{"map2request", file("y.yaml", kHostile + ": [\n"), "--robots", robots}, ""},
+  };
+  for (const Case& one : cases) {
+    const Outcome outcome = run(one.arguments, one.input);
+    for (const std::string& text : {outcome.out, outcome.err}) {
+      EXPECT_EQ(text, api::printable(text, api::Lines::kept)) << testing::PrintToString(one.arguments);
+    }
+    EXPECT_FALSE(outcome.err.starts_with("forged")) << outcome.err;
+  }
+}
+
+TEST(Commands, ShowIdsOfTheAnswerAsJson) {
+  Json body = Json::parse(request("......."));
+  body["robots"][0]["id"] = kHostile;
+  EXPECT_EQ(Json::parse(run({"plan"}, body.dump()).out)["plans"][0]["robot"], kHostile);
+}
+
+/// Returns the texts of all titles, without entities.
+std::string titles_without_entities(std::string picture) {
+  std::string texts;
+  for (std::size_t at = 0; (at = picture.find("<title>", at)) != std::string::npos;) {
+    const std::size_t end = picture.find("</title>", at);
+    texts += picture.substr(at + 7, end - at - 7);
+    at = end;
+  }
+  for (const std::string entity : {"&amp;", "&lt;"}) {
+    for (std::size_t at = 0; (at = texts.find(entity)) != std::string::npos;) texts.erase(at, entity.size());
+  }
+  return texts;
+}
+
+TEST(Commands, DrawIdsOfAnyCharactersAsXml) {
+  core::Random random(3);
+  const support::TemporaryFolder folder;
+  const std::string svg = folder.path() / "plan.svg";
+  for (int round = 0; round < 200; ++round) {
+    std::string id = "</title><script>&\"'";
+    for (int k = 0; k < 8; ++k) {
+      const std::string characters = "\x01\x1b\x7f\u0085\u202e\uffff\ufffe\U0001ffff<&]>\nä車";
+      std::size_t at = random.below(characters.size());
+      while (at > 0 && (static_cast<unsigned char>(characters[at]) & 0xC0U) == 0x80U) --at;
+      std::size_t end = at + 1;
+      while (end < characters.size() && (static_cast<unsigned char>(characters[end]) & 0xC0U) == 0x80U) ++end;
+      id.insert(0, characters.substr(at, end - at));
+    }
+    Json body = Json::parse(request("......."));
+    body["robots"][0]["id"] = id;
+    ASSERT_EQ(run({"plan", "-", "--svg", svg}, body.dump()).code, kSolved);
+    const std::string picture = content(svg);
+    EXPECT_EQ(picture, api::printable(picture, api::Lines::kept));
+    EXPECT_EQ(titles_without_entities(picture).find_first_of("<&"), std::string::npos) << picture;
+  }
 }
 
 TEST(Commands, MakeTheServiceOnlyToUseIt) {

@@ -205,6 +205,14 @@ TEST_F(HttpAnswers, AnExceptionIs500WithoutItsText) {
   expect_served();
 }
 
+TEST_F(HttpAnswers, ALackOfMemoryIs503WithRetryAfter) {
+  const auto result = client.Post("/v1/plan", "no memory", kJsonType);
+  expect_problem(result, 503, "overloaded");
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(result->has_header("Retry-After"));
+  expect_served();
+}
+
 TEST_F(HttpAnswers, ARangeIsIgnored) {
   for (const char* range : {"bytes=0-1", "nonsense"}) {
     const httplib::Headers headers{{"Range", range}};

@@ -147,6 +147,33 @@ TEST(Load, TheLargestBodyIsAcceptedWithoutAQueue) {
   }
 }
 
+/// A body of some kilobytes may have a map of many pixels. While such ones are read, small ones of others are
+/// read, too.
+TEST(Load, SmallBodiesAreReadBesideAnyNumberOfImages) {
+  StubService stub;
+  Service service = stub.service();
+  Gate reading;  // bodies that begin with "image" are read until it opens
+  const auto parsed = service.plan;
+  service.plan = [&](std::string_view body, const api::RequestContext& context) {
+    if (body.starts_with("image")) reading.pass(context.stop);
+    return parsed(body, context);
+  };
+  const TestServer server(with_workers(1, 8), service);
+  std::vector<std::future<int>> images;
+  for (const bool compressed : {false, false, true, true}) {
+    images.push_back(waiting_job(server, R"(image "png")", compressed));
+  }
+  reading.await_waiting(1);
+  auto client = server.client();
+  for (int k = 0; k < 20; ++k) {
+    const auto result = client.Post("/v1/plan", "abc", kJsonType);
+    ASSERT_TRUE(result);
+    EXPECT_EQ(result->status, 200);
+  }
+  reading.open();
+  for (auto& image : images) EXPECT_EQ(image.get(), 200);
+}
+
 TEST(Load, ManyLargeBodiesAreRejectedWhileSmallOnesAreAccepted) {
   Settings settings = with_workers(3, 0);
   settings.limits.max_body = 1 << 20;  // so that all bodies together have 4 MiB

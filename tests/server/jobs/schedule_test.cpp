@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <deque>
 #include <string>
 
@@ -37,6 +38,13 @@ class Schedules : public testing::Test {
               bool is_short = false) {
     Job& job = accepted(client);
     EXPECT_EQ(schedule.request_turn(job, {Kind::plan, now + budget, 1.0, is_short}, now), std::nullopt);
+    return job;
+  }
+
+  /// A job that shares its turn when it has lasted long, and has asked for one.
+  Job& sharing(Kind kind, const std::string& client = "client") {
+    Job& job = accepted(client);
+    EXPECT_EQ(schedule.request_turn(job, {kind, now + 1h, 1.0, false}, now), std::nullopt);
     return job;
   }
 
@@ -222,17 +230,66 @@ TEST_F(Schedules, ShareLongTurnsWithThoseThatWait) {
   EXPECT_EQ(schedule.leave(simulation, now), &later);
 }
 
-TEST_F(Schedules, KeepLongTurnsWhileAsManyArePausedAsThereAreWorkers) {
-  Job& first = asking();
+TEST_F(Schedules, ShareTurnsAmongThoseThatHaveBegunWhileAsManyArePausedAsThereAreWorkers) {
+  Job& first = sharing(Kind::simulation);
+  Job& second = sharing(Kind::travel);
+  Job& third = sharing(Kind::simulation);
   now += Schedule::kLongTurn;
-  Job& second = asking();
-  asking();
   EXPECT_EQ(schedule.share(first, now), &second);
   now += Schedule::kLongTurn;
-  EXPECT_EQ(schedule.share(second, now), nullptr);
-  EXPECT_TRUE(second.has_turn()) << "it is not cut";
-  schedule.stop_waiting(first);
-  EXPECT_NE(schedule.share(second, now), nullptr);
+  EXPECT_EQ(schedule.share(second, now), &first) << "not the third, whose memory would be one more's";
+  EXPECT_EQ(schedule.paused(), 1U);
+  EXPECT_EQ(schedule.leave(first, now), &second);
+  now += Schedule::kLongTurn;
+  EXPECT_EQ(schedule.share(second, now), &third);
+}
+
+TEST_F(Schedules, GiveSharedTurnsToJobsThatWaitForTheirFirst) {
+  Job& first = sharing(Kind::travel);
+  Job& second = sharing(Kind::travel);
+  now += Schedule::kLongTurn;
+  EXPECT_EQ(schedule.share(first, now), &second);
+  Job& plan = asking(5s);
+  Job& other = asking(4s);
+  now += Schedule::kLongTurn;
+  EXPECT_EQ(schedule.share(second, now), &other);
+  EXPECT_EQ(schedule.paused(), 2U);
+  EXPECT_EQ(schedule.leave(other, now), &first) << "one is paused more than there are workers";
+  EXPECT_EQ(schedule.paused(), 1U);
+  now += Schedule::kLongTurn;
+  EXPECT_EQ(schedule.share(first, now), &plan);
+  EXPECT_EQ(schedule.leave(plan, now), &second);
+}
+
+/// Whatever number of simulations and travel times there is, of one client or of several: every plan gets its
+/// turn soon, and never are more jobs paused than there are workers, and one more.
+TEST_F(Schedules, AreNotKeptByJobsThatShareTheirTurns) {
+  constexpr std::size_t kWorkers = 2;
+  for (const bool own_clients : {false, true}) {
+    use({kWorkers, 100, 0});
+    std::deque<Job*> running;
+    for (int k = 0; k < 8; ++k) {
+      Job& job = sharing(k % 2 == 0 ? Kind::travel : Kind::simulation, own_clients ? std::to_string(k) : "a");
+      if (job.has_turn()) running.push_back(&job);
+    }
+    for (int round = 0; round < 40; ++round) {
+      Job& plan = asking(5s, own_clients ? "planner" : "a");
+      const auto asked = now;
+      while (!plan.has_turn()) {
+        now += Schedule::kLongTurn;
+        ASSERT_LE(now - asked, 4 * Schedule::kLongTurn);
+        for (Job*& one : running) {
+          Job* successor = schedule.share(*one, now);
+          if (successor != nullptr) one = successor;
+        }
+        ASSERT_LE(schedule.paused(), kWorkers + 1);
+      }
+      now += 30ms;
+      Job* successor = schedule.leave(plan, now);
+      std::replace(running.begin(), running.end(), &plan, successor);
+      ASSERT_EQ(std::count(running.begin(), running.end(), nullptr), 0);
+    }
+  }
 }
 
 TEST_F(Schedules, DoNotGiveTheTurnToAJobThatStoppedWaiting) {

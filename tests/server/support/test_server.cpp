@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <new>
 #include <stdexcept>
 #include <utility>
 
@@ -61,6 +62,7 @@ Service StubService::service() {
 }
 
 api::Reply StubService::answer(std::string_view body, const api::RequestContext& context) {
+  if (body == "no memory") throw std::bad_alloc();
   if (body == "throw") throw std::runtime_error("a secret detail");
   if (!has_turn(context)) return api::too_busy(context.request_id);
   if (body.starts_with("gate") && !gate.pass(context.stop)) ++stopped;

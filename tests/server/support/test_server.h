@@ -30,7 +30,7 @@ class Gate {
 };
 
 /// Echoes the body's size and reports what its context was. A body that begins with "gate" waits at
-/// the gate, "throw" throws.
+/// the gate, "throw" throws, "no memory" as where the process has none.
 class StubService {
  public:
   Service service();

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tests/core/execution/simulation/study.h"
+#include "tests/support/step_limit.h"
 
 namespace fleetplan::core {
 namespace TEST_FILE {
@@ -94,12 +95,25 @@ struct TwoDrivers {
   OccupancyGrid grid = open_map();
 
   std::vector<ExecutedProgress> execute(std::vector<Dependency> dependencies, double first_factor) {
+    return *execute(std::move(dependencies), first_factor, StopCondition::never());
+  }
+  std::optional<std::vector<ExecutedProgress>> execute(std::vector<Dependency> dependencies,
+                                                       double first_factor, const StopCondition& stop) {
     PlannedExecution planned = simulated(grid, robots, plans, ExecutionPolicy::dependencies).execution;
     planned.dependencies = std::move(dependencies);
-    return *execute_plans(planned, {slowed(plans[0], first_factor), slowed(plans[1], 1.0)},
-                          StopCondition::never());
+    return execute_plans(planned, {slowed(plans[0], first_factor), slowed(plans[1], 1.0)}, stop);
   }
 };
+
+/// However many dependencies there are, the stop condition is asked soon, and the same one many times is one.
+TEST(Dependencies, EndWithTheStopHoweverManyTheyAre) {
+  const Dependency one{{1, 0, 0.4}, {0, 0, 0.5}, 0.0};
+  const std::vector<Dependency> many(100'000, one);
+  support::StepLimit limit(100);
+  EXPECT_FALSE(TwoDrivers().execute(many, 3.0, support::counted(limit)));
+  EXPECT_LT(limit.late(), 10);
+  EXPECT_EQ(TwoDrivers().execute(many, 3.0)[1].end(), TwoDrivers().execute({one}, 3.0)[1].end());
+}
 
 TEST(Dependencies, HoldARobotAtItsGateUntilTheOtherOneIsThere) {
   // Robot 1 may not pass 4 m until robot 0 has reached 5 m, which takes 15 s.

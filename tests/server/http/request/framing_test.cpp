@@ -5,6 +5,7 @@
 #include <chrono>
 #include <thread>
 
+#include "server/http/request/request_head.h"
 #include "tests/server/support/test_server.h"
 
 namespace fleetplan::server {
@@ -251,6 +252,69 @@ TEST(SlowClient, GetsATimeoutWhenItsBodyArrivesTooSlowly) {
   });
   const std::string answer = raw.receive();
   EXPECT_EQ(answer.find("HTTP/1.1 408 Request Timeout\r\n"), 0u) << answer;
+}
+
+/// Sends `begin`, and then the same bytes again and again; expects the end of the connection.
+void expect_end_of_drips(const std::string& begin, const std::string& drip) {
+  Settings settings;
+  settings.read_timeout = std::chrono::milliseconds(200);
+  const TestServer server(settings);
+  RawConnection raw(server.server.port());
+  raw.send(begin);
+  const std::jthread drips([&](const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      raw.send(drip);
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  });
+  EXPECT_TRUE(raw.closed_by_server()) << begin << " and drips of " << drip;
+}
+
+TEST(SlowClient, EndsAtItsDeadlineWhateverItDrips) {
+  const std::string get = "GET /healthz HTTP/1.1\r\nHost: localhost\r\n";
+  const std::string chunked =
+      "POST /v1/plan HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
+      "Transfer-Encoding: chunked\r\n\r\n";
+  expect_end_of_drips("", "\r\n");                         // before a head
+  expect_end_of_drips(get + "\r\n", "\r\n");               // between requests
+  expect_end_of_drips("\r\n", "G");                        // in a request line
+  expect_end_of_drips(get, "A: b\r\n");                    // in a head
+  expect_end_of_drips(get + "A: ", "b");                   // in a field
+  expect_end_of_drips(chunked + "1;a", "b");               // in an extension
+  expect_end_of_drips(chunked + "1;a=\"", "b");            // in one in quotes
+  expect_end_of_drips(chunked, "1;extension=1\r\na\r\n");  // chunks of one byte
+  expect_end_of_drips(chunked + "0\r\n", "A: b\r\n");      // in trailers
+  expect_end_of_drips(chunked + "0\r\nA:", "b");           // in a trailer
+}
+
+TEST(SlowClient, ThatNeverStopsWithEmptyLinesIsRefused) {
+  const TestServer server;
+  RawConnection raw(server.server.port());
+  std::string lines;
+  while (lines.size() <= kMaxHeadBytes) lines += "\r\n";
+  raw.send(lines);
+  EXPECT_EQ(raw.receive().find("HTTP/1.1 400 Bad Request\r\n"), 0u);
+  EXPECT_TRUE(raw.closed_by_server());
+}
+
+/// The sizes of chunks and their extensions are no progress of a body.
+TEST(SlowClient, GetsATimeoutWhenItsChunksHaveLittleData) {
+  Settings settings;
+  settings.read_timeout = std::chrono::milliseconds(300);
+  const TestServer server(settings);
+  RawConnection raw(server.server.port());
+  raw.send(
+      "POST /v1/plan HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
+      "Transfer-Encoding: chunked\r\n\r\n");
+  const std::jthread chunks([&raw](const std::stop_token& stop) {  // 10 kB/s of data, 210 kB/s in all
+    std::string some;
+    for (int k = 0; k < 200; ++k) some += "0000000000000001\r\n \r\n";
+    while (!stop.stop_requested()) {
+      raw.send(some);
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  });
+  EXPECT_EQ(raw.receive().find("HTTP/1.1 408 Request Timeout\r\n"), 0u);
 }
 
 TEST(SlowClient, IsDisconnectedWhenIdle) {

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <mutex>
+#include <utility>
+
+#include "core/runtime/stop_condition.h"
+
+namespace fleetplan::core {
+
+/// Shares the turn of a job with others by time: whatever its threads do, `go_on` is asked about every
+/// kPeriod, from within the loops that ask the job's stop condition. It may take its time, while others
+/// compute; meanwhile all threads of the job wait. If it returns false, the stop condition is met from then
+/// on.
+class SharedTurn final : public EarlyEnd {
+ public:
+  using GoOn = std::function<bool()>;
+
+  static constexpr std::chrono::milliseconds kPeriod{20};
+
+  /// `go_on` is called by any of the job's threads, one at a time; empty: the turn is not shared.
+  SharedTurn(StopCondition stop, GoOn go_on) : inner_(std::move(stop)), go_on_(std::move(go_on)) {}
+
+  /// Returns the job's condition, which shares the turn. This object has to outlive it.
+  StopCondition stop() { return inner_.ended_by(this); }
+
+  /// Asks `go_on`. Returns whether the job may go on.
+  bool share() {
+    const std::lock_guard lock(mutex_);
+    return !ended_ && ask();
+  }
+
+  bool met(bool /*outlasts*/) override {
+    if (!ended_ && now() >= next_) share_if_due();
+    return ended_ || inner_.met();
+  }
+  bool is_over(bool /*outlasts*/) const override { return ended_ || inner_.is_over(); }
+
+ private:
+  using Clock = StopCondition::Clock;
+
+  static Clock::rep now() { return Clock::now().time_since_epoch().count(); }
+
+  void share_if_due() {
+    const std::lock_guard lock(mutex_);
+    if (!ended_ && now() >= next_) ask();  // unless another thread has asked meanwhile
+  }
+
+  bool ask() {
+    if (go_on_ && !go_on_()) ended_ = true;
+    next_ = now() + Clock::duration(kPeriod).count();
+    return !ended_;
+  }
+
+  const StopCondition inner_;
+  const GoOn go_on_;
+  std::mutex mutex_;  // held while `go_on` is asked
+  std::atomic<Clock::rep> next_{Clock::time_point::min().time_since_epoch().count()};
+  std::atomic<bool> ended_{false};
+};
+
+}  // namespace fleetplan::core
