@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <numeric>
 #include <unordered_map>
@@ -81,15 +82,18 @@ std::vector<core::Robot> robots_at(const Poses& from, const Poses& to, const cor
 
 /// Reports the poses that the robot cannot have.
 void report(const core::ProblemFaults& faults, const Poses& from, const Poses& to, const core::Robot& robot,
-            const std::vector<core::Zone>& zones, const core::OccupancyGrid& grid, const WorldFrame& frame) {
+            double inflation, const std::vector<core::Zone>& zones, const core::OccupancyGrid& grid,
+            const WorldFrame& frame, NearestGoals& nearest) {
   for (const core::ProblemFault& found : faults.listed) {
     const bool is_start = found.kind == core::ProblemFault::Kind::start_in_obstacle;
     if (!is_start && found.robot > 0) continue;  // the same as that of the first robot
     const JsonReader& place = is_start ? from.places[found.robot] : to.places[found.goal];
     place.fault(is_start ? fault::kStartInObstacle : fault::kGoalInObstacle,
-                describe_pose(found, place, robot.radius, zones, grid, frame));
+                describe_pose(found, place, robot, inflation, zones, grid, frame, nearest));
   }
 }
+
+constexpr std::array<std::string_view, 2> kMatrixFormats{"numbers", "integers"};  // see MatrixFormat
 
 core::TravelQuestions questions_of(const Poses& from, const Poses& to) {
   core::TravelQuestions questions;
@@ -113,10 +117,13 @@ std::optional<MatrixRequest> parse_matrix_request(const JsonReader& root, const 
   std::vector<ParsedRobot> robot(1);
   if (const auto read = parse_lone_robot(root.require("robot"))) robot.front().robot = *read;
   const WorldFrame frame = map ? map->frame : WorldFrame{};
-  const auto zones = zones_of_robot(
-      parse_zones(root.find("zones"), map ? &*map : nullptr, limits, robot, ZoneRobots::also_others));
+  std::vector<std::string>& warnings = options.warnings;
+  if (map) warnings.insert(warnings.end(), map->warnings.begin(), map->warnings.end());
+  const auto zones = zones_of_robot(parse_zones(root.find("zones"), map ? &*map : nullptr, limits, robot,
+                                                warnings, ZoneRobots::also_others));
   const JsonReader from_member = root.require("from", "; give a list of poses {\"x\", \"y\"}");
   const JsonReader to_member = root.require("to", "; give a list of poses {\"x\", \"y\"}");
+  const auto format = root.find("format").word(kMatrixFormats);
   if (!check_pose_pairs(from_member, to_member)) return std::nullopt;
   const Poses from = parse_poses(from_member, "from", frame);
   const Poses to = parse_poses(to_member, "to", frame);
@@ -127,11 +134,13 @@ std::optional<MatrixRequest> parse_matrix_request(const JsonReader& root, const 
   core::ProblemConditions conditions = core::conditions_of(options.plan);
   conditions.zones = zones;
   conditions.one_at_a_time = true;
-  auto made = core::Problem::create(static_map, robots_at(from, to, robot.front().robot, zones),
-                                    std::move(conditions), work.reading());
+  const std::vector<core::Robot> robots = robots_at(from, to, robot.front().robot, zones);
+  auto made = core::Problem::create(static_map, robots, std::move(conditions), work.reading());
   if (const auto* faults = std::get_if<core::ProblemFaults>(&made)) {
     if (!faults->finished) work.look();
-    report(*faults, from, to, robot.front().robot, zones, static_map->grid(), frame);
+    NearestGoals nearest(static_map, zones, robots.size(), options.plan.inflation, frame, work.reading());
+    report(*faults, from, to, robots.front(), options.plan.inflation, zones, static_map->grid(), frame,
+           nearest);
     root.count_more_faults(faults->total - faults->listed.size());
     return std::nullopt;
   }
@@ -139,31 +148,74 @@ std::optional<MatrixRequest> parse_matrix_request(const JsonReader& root, const 
                         .options = options.plan,
                         .questions = questions_of(from, to),
                         .budget = effective_budget(options, limits),
+                        .format = static_cast<MatrixFormat>(format.value_or(0)),
                         .warnings = std::move(options.warnings)};
   if (auto warning = budget_warning(options, limits)) request.warnings.push_back(std::move(*warning));
   return request;
 }
 
+namespace {
+
+constexpr std::array<std::pair<const char*, double core::Travel::*>, 2> kMatrices{
+    {{"seconds", &core::Travel::seconds}, {"metres", &core::Travel::metres}}};
+
+/// Rounds up. What rounding may have added to a whole number does not count.
+std::int64_t rounded_up(double number) {
+  constexpr double kRounding = 1e-6;
+  return static_cast<std::int64_t>(std::max(std::ceil(number - kRounding), 0.0));
+}
+
+/// Returns the whole number that stands for no way: more than a tour over all poses of `from` can take, in
+/// seconds and in metres, so that solvers avoid it, and no more than 32 bits with a sign. So small a number
+/// leaves solvers room for sums of many. None if `stop` is met first.
+std::optional<std::int64_t> unreachable_number(const core::TravelAnswers& answers, std::size_t rows,
+                                               const core::StopCondition& stop) {
+  std::int64_t most = 0;
+  for (const auto& [key, number] : kMatrices) {
+    std::int64_t tour = 0;
+    for (std::size_t row = 0; row < rows; ++row) {
+      if (stop.met()) return std::nullopt;
+      std::int64_t longest = 0;
+      for (const auto& column : answers) {
+        if (column[row]) longest = std::max(longest, rounded_up((*column[row]).*number));
+      }
+      tour += longest;
+    }
+    most = std::max(most, tour);
+  }
+  return std::min<std::int64_t>(most + 1, std::numeric_limits<std::int32_t>::max());
+}
+
+}  // namespace
+
 std::optional<std::string> write_matrix(const MatrixRequest& request, const core::TravelAnswers& answers,
                                         const core::StopCondition& stop) {
   constexpr std::size_t kBytesOfANumber = 20;
+  const bool is_whole = request.format == MatrixFormat::integers;
+  const auto unreachable =
+      is_whole ? unreachable_number(answers, request.rows(), stop) : std::optional<std::int64_t>(0);
+  if (!unreachable) return std::nullopt;
   JsonWriter json;
   json.reserve(2 * kBytesOfANumber * request.rows() * request.columns());
   json.begin_object();
-  for (const auto& [key, number] :
-       {std::pair{"seconds", &core::Travel::seconds}, std::pair{"metres", &core::Travel::metres}}) {
+  for (const auto& [key, number] : kMatrices) {
     json.key(key).begin_array();
     for (std::size_t row = 0; row < request.rows(); ++row) {
       if (stop.met()) return std::nullopt;
       json.begin_array();
       for (const auto& column : answers) {
         const std::optional<core::Travel>& way = column[row];
-        json.value(way ? std::optional((*way).*number) : std::nullopt);
+        if (is_whole) {
+          json.value(way ? rounded_up((*way).*number) : *unreachable);
+        } else {
+          json.value(way ? std::optional((*way).*number) : std::nullopt);
+        }
       }
       json.end_array();
     }
     json.end_array();
   }
+  if (is_whole) json.member("unreachable", *unreachable);
   json.key("warnings").begin_array();
   for (const std::string& warning : request.warnings) json.value(std::string_view(warning));
   json.end_array().end_object();

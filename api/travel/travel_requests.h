@@ -22,8 +22,11 @@
 
 namespace fleetplan::api {
 
-inline constexpr std::array<std::string_view, 6> kMatrixMembers{"map",  "zones", "robot",
-                                                                "from", "to",    "options"};
+inline constexpr std::array<std::string_view, 7> kMatrixMembers{"map", "zones",   "robot", "from",
+                                                                "to",  "options", "format"};
+
+/// How a matrix has its numbers: as they are, with null where there is no way, or as whole numbers.
+enum class MatrixFormat { numbers, integers };
 
 /// A valid body of POST /v1/matrix.
 struct MatrixRequest {
@@ -31,6 +34,7 @@ struct MatrixRequest {
   core::PlanOptions options;
   core::TravelQuestions questions;  // a column for each pose of `to`
   std::chrono::nanoseconds budget;
+  MatrixFormat format = MatrixFormat::numbers;
   std::vector<std::string> warnings;
 
   std::size_t rows() const { return problem.robots().size(); }
