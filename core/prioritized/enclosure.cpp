@@ -134,18 +134,19 @@ std::optional<NarrowPlace> Enclosure::narrowest_place(std::int64_t max_steps, st
     if (answer == Answer::closed) closing = std::move(found);
     return answer;
   };
-  Answer answer = answer_at(open);
-  if (answer == Answer::open) answer = answer_at(closed);
-  if (answer != Answer::closed || open >= closed) return std::nullopt;
+  if (open >= closed || answer_at(open) != Answer::open || answer_at(closed) != Answer::closed) {
+    clearance_ = needed;
+    return std::nullopt;
+  }
   // Bounded: by the accuracy, each flood by its steps.
   while (closed - open > 0.5 * kGapAccuracy) {
     const double middle = 0.5 * (open + closed);
-    answer = answer_at(middle);
-    if (answer == Answer::unknown) return std::nullopt;
+    const Answer answer = answer_at(middle);
+    if (answer == Answer::unknown) break;
     (answer == Answer::open ? open : closed) = middle;
   }
-  clearance_ = closed;
-  const auto gap = gap_of(*closing, open);
+  const bool is_exact = closed - open <= 0.5 * kGapAccuracy;
+  const auto gap = is_exact ? gap_of(*closing, open) : std::nullopt;
   clearance_ = needed;
   if (!gap) return std::nullopt;
   return NarrowPlace{*gap, 2.0 * open, 2.0 * (needed + kSlack)};
