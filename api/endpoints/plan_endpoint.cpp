@@ -19,6 +19,7 @@
 #include "core/instance/instance.h"
 #include "core/model/objective_share.h"
 #include "core/model/plan.h"
+#include "core/prioritized/narrow_places.h"
 #include "core/replan/kept_plans.h"
 #include "core/runtime/executor.h"
 #include "core/runtime/memory_lack.h"
@@ -213,16 +214,18 @@ Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std:
   if (dependencies) warnings = joined(std::move(warnings), dependencies->warnings);
   stages.verified = StageTimes::Clock::now();
   if (on_answer) on_answer(request.problem, answered);
-  const VerifiedPlan verified{.plan = answered,
-                              .report = *report,
-                              .problem = request.problem,
-                              .received = request.received,
-                              .origin = request.frame.origin,
-                              .warnings = warnings,
-                              .metadata = request.metadata,
-                              .lattice_spacings = reported_spacings(request),
-                              .dependencies = dependencies ? &dependencies->made : nullptr,
-                              .objective_value = objective_value(answered, request)};
+  const VerifiedPlan verified{
+      .plan = answered,
+      .report = *report,
+      .problem = request.problem,
+      .received = request.received,
+      .origin = request.frame.origin,
+      .warnings = warnings,
+      .metadata = request.metadata,
+      .lattice_spacings = reported_spacings(request),
+      .dependencies = dependencies ? &dependencies->made : nullptr,
+      .objective_value = objective_value(answered, request),
+      .narrow_places = core::narrow_places(request.problem, request.options, answered.unplanned, stop)};
   std::string text = write_response(verified, request_id, stages);
   return {.status = 200, .content_type = kJson, .body = std::move(text), .outcome = outcome};
 }

@@ -299,9 +299,12 @@ Fleet parse_fleet(const JsonReader& root, const Limits& limits,
   UniqueIds ids;
   fleet.robots = parse_robots(root.require("robots"), root.find("robot_defaults"), frame, limits, ids);
   fleet.obstacles = parse_obstacles(root.find("obstacles"), frame, limits, ids);
-  fleet.zones = parse_zones(root.find("zones"), fleet.map ? &*fleet.map : nullptr, limits, fleet.robots);
+  std::vector<std::string>& warnings = fleet.options.warnings;
+  if (fleet.map) warnings.insert(warnings.end(), fleet.map->warnings.begin(), fleet.map->warnings.end());
+  fleet.zones =
+      parse_zones(root.find("zones"), fleet.map ? &*fleet.map : nullptr, limits, fleet.robots, warnings);
   for (std::string& warning : unit_warnings(fleet.robots, root.find("zones"))) {
-    fleet.options.warnings.push_back(std::move(warning));
+    warnings.push_back(std::move(warning));
   }
   fleet.metadata = parse_metadata(root);
   set_default_start_safe_interval(root.find("options"), fleet.robots, fleet.options.plan);

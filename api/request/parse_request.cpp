@@ -76,6 +76,10 @@ class ProblemMaker {
       }
       const auto& faults = std::get<core::ProblemFaults>(made);
       if (!faults.finished) work_.look();
+      if (!nearest_) {
+        nearest_.emplace(map_, zones(), indices_.size(), fleet_.options.plan.inflation, fleet_.map->frame,
+                         work_.reading());
+      }
       if (reports_ && faults.finished && mark_invalid(faults)) continue;
       report(faults);
       root_.count_more_faults(faults.total - faults.listed.size());
@@ -89,7 +93,7 @@ class ProblemMaker {
     std::string cause = common_cause(faults, fleet_, indices_, *map_, work_.reading());
     for (const auto& found : faults.listed) {
       if (is_told_at_start(found, faults)) continue;
-      const GeometryFault fault = describe(found, fleet_, indices_, map_->grid());
+      const GeometryFault fault = describe(found, fleet_, indices_, map_->grid(), *nearest_);
       fault.place.fault(fault.code, fault.detail + std::exchange(cause, ""));
     }
   }
@@ -193,7 +197,7 @@ class ProblemMaker {
     bool any = false;
     for (const core::ProblemFault& found : faults.listed) {
       if (is_told_at_start(found, faults)) continue;
-      const GeometryFault fault = describe(found, fleet_, indices_, map_->grid());
+      const GeometryFault fault = describe(found, fleet_, indices_, map_->grid(), *nearest_);
       if (work_.look()) return false;
       const Fault error = fault.place.described_fault(fault.code, fault.detail);
       any = make_invalid(found.robot, error) || any;
@@ -219,8 +223,9 @@ class ProblemMaker {
   core::Work& work_;
   std::shared_ptr<const core::StaticMap> map_;
   bool reports_;
-  std::vector<core::Robot> robots_;  // the robots that are placed
-  core::OpenGoals open_;             // of these robots
+  std::vector<core::Robot> robots_;      // the robots that are placed
+  std::optional<NearestGoals> nearest_;  // once there are faults
+  core::OpenGoals open_;                 // of these robots
   bool any_open_ = false;
   std::vector<std::size_t> indices_;  // index of each of these robots in the fleet
   std::vector<std::vector<Fault>> errors_;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "api/json/errors.h"
@@ -286,10 +288,29 @@ void write_plan(JsonWriter& json, const core::RobotPlan& plan, const VerifiedPla
   json.end_object();
 }
 
-void write_unplanned(JsonWriter& json, const core::Unplanned& unplanned, const VerifiedPlan& verified) {
+/// Returns a length or a coordinate, to the accuracy of a width.
+std::string millimetres_text(double number) {
+  constexpr double kPerMetre = 1e3;
+  return number_text(std::round(number * kPerMetre) / kPerMetre);
+}
+
+/// Returns a sentence, after a space.
+std::string narrow_text(const core::NarrowPlace& narrow, const core::Position& origin) {
+  const core::Position place = narrow.place + origin;
+  return " It needs " + millimetres_text(narrow.needed) +
+         " m; the narrowest place of the widest way there is " + millimetres_text(narrow.width) +
+         " m wide, at (" + millimetres_text(place.x()) + ", " + millimetres_text(place.y()) + ").";
+}
+
+void write_unplanned(JsonWriter& json, std::size_t index, const VerifiedPlan& verified) {
+  const core::Unplanned& unplanned = verified.plan.unplanned[index];
+  std::string detail = unplanned.detail;
+  if (index < verified.narrow_places.size() && verified.narrow_places[index]) {
+    detail += narrow_text(*verified.narrow_places[index], verified.origin);
+  }
   json.begin_object();
   json.member("robot", verified.problem.robots()[unplanned.robot].id);
-  json.member("reason", name_of(unplanned.reason)).member("detail", unplanned.detail);
+  json.member("reason", name_of(unplanned.reason)).member("detail", detail);
   write_blocked_by(json, unplanned.blocked_by, verified);
   write_own_lattice(json, unplanned.robot, verified);
   const core::Robot& robot = verified.problem.robots()[unplanned.robot];
@@ -373,7 +394,7 @@ std::string write_response(const VerifiedPlan& verified, const std::string& requ
   for (const core::RobotPlan& one : plan.plans) write_plan(json, one, verified);
   json.end_array();
   json.key("unplanned").begin_array();
-  for (const core::Unplanned& one : plan.unplanned) write_unplanned(json, one, verified);
+  for (std::size_t k = 0; k < plan.unplanned.size(); ++k) write_unplanned(json, k, verified);
   json.end_array();
   if (!plan.unavoidable.empty()) {
     json.key("unavoidable").begin_array();

@@ -16,6 +16,7 @@
 #include "core/model/problem.h"
 #include "core/model/robot.h"
 #include "core/model/surroundings.h"
+#include "core/prioritized/enclosure.h"
 #include "core/runtime/stop_condition.h"
 #include "core/verify/verify.h"
 
@@ -45,6 +46,8 @@ struct VerifiedPlan {
   /// The dependencies of the answer; null if they were not asked for, none if they were not made in time.
   const std::optional<core::Dependencies>* dependencies = nullptr;
   std::optional<double> objective_value = {};  // none: it is the flowtime or the makespan
+  /// By robot of plan.unplanned, where its way is too narrow; may be empty.
+  std::vector<std::optional<core::NarrowPlace>> narrow_places = {};
 };
 
 /// Returns the answer of POST /v1/plan. Writing ends with the timings, so that they include it.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -133,6 +134,8 @@ class PoseCheck {
 
   /// Reports the poses that it cannot have as faults of `root`. Ends early if the work is met.
   void run(const JsonReader& root, core::Work& work) const {
+    NearestGoals nearest(request_.map, request_.zones, kPosesOfAPart, request_.options.inflation, frame_,
+                         work.reading());
     for_each_part(from_.poses.size(), to_.poses.size(),
                   [&](std::size_t row, std::size_t rows, std::size_t column, std::size_t columns) {
                     auto robots = robots_at(PosesPart(from_.poses).subspan(row, rows),
@@ -143,7 +146,7 @@ class PoseCheck {
                                                             work.reading());
                     const auto* faults = std::get_if<core::ProblemFaults>(&made);
                     if (faults == nullptr) return true;
-                    report(*faults, row, column);
+                    report(*faults, row, column, nearest);
                     root.count_more_faults(faults->total - faults->listed.size());
                     return faults->finished || !work.look();
                   });
@@ -151,14 +154,15 @@ class PoseCheck {
 
  private:
   /// Each pose is reported with the first part that it is in.
-  void report(const core::ProblemFaults& faults, std::size_t row, std::size_t column) const {
+  void report(const core::ProblemFaults& faults, std::size_t row, std::size_t column,
+              NearestGoals& nearest) const {
     for (const core::ProblemFault& found : faults.listed) {
       const bool is_start = found.kind == core::ProblemFault::Kind::start_in_obstacle;
       if (is_start ? column > 0 : row > 0 || found.robot > 0) continue;
       const JsonReader& place = is_start ? from_.places[row + found.robot] : to_.places[column + found.goal];
-      place.fault(
-          is_start ? fault::kStartInObstacle : fault::kGoalInObstacle,
-          describe_pose(found, place, request_.robot.radius, request_.zones, request_.map->grid(), frame_));
+      place.fault(is_start ? fault::kStartInObstacle : fault::kGoalInObstacle,
+                  describe_pose(found, place, request_.robot, request_.options.inflation, request_.zones,
+                                request_.map->grid(), frame_, nearest));
     }
   }
 
@@ -167,6 +171,8 @@ class PoseCheck {
   const Poses& to_;
   const WorldFrame& frame_;
 };
+
+constexpr std::array<std::string_view, 2> kMatrixFormats{"numbers", "integers"};  // see MatrixFormat
 
 core::TravelQuestions questions_of(PosesPart from, PosesPart to) {
   core::TravelQuestions questions;
@@ -190,10 +196,13 @@ std::optional<MatrixRequest> parse_matrix_request(const JsonReader& root, const 
   std::vector<ParsedRobot> robot(1);
   if (const auto read = parse_lone_robot(root.require("robot"))) robot.front().robot = *read;
   const WorldFrame frame = map ? map->frame : WorldFrame{};
-  const auto zones = zones_of_robot(
-      parse_zones(root.find("zones"), map ? &*map : nullptr, limits, robot, ZoneRobots::also_others));
+  std::vector<std::string>& warnings = options.warnings;
+  if (map) warnings.insert(warnings.end(), map->warnings.begin(), map->warnings.end());
+  const auto zones = zones_of_robot(parse_zones(root.find("zones"), map ? &*map : nullptr, limits, robot,
+                                                warnings, ZoneRobots::also_others));
   const JsonReader from_member = root.require("from", "; give a list of poses {\"x\", \"y\"}");
   const JsonReader to_member = root.require("to", "; give a list of poses {\"x\", \"y\"}");
+  const auto format = root.find("format").word(kMatrixFormats);
   if (!check_pose_pairs(from_member, to_member)) return std::nullopt;
   const Poses from = parse_poses(from_member, "from", frame);
   const Poses to = parse_poses(to_member, "to", frame);
@@ -208,6 +217,7 @@ std::optional<MatrixRequest> parse_matrix_request(const JsonReader& root, const 
                         .to = distinct(to.poses, work),
                         .options = options.plan,
                         .budget = effective_budget(options, limits),
+                        .format = static_cast<MatrixFormat>(format.value_or(0)),
                         .warnings = std::move(options.warnings)};
   PoseCheck(request, from, to, frame).run(root, work);
   if (root.fault_count() > 0 || work.met()) return std::nullopt;
@@ -244,26 +254,68 @@ std::optional<core::TravelAnswers> matrix_times(const MatrixRequest& request, co
   return answers;
 }
 
+namespace {
+
+constexpr std::array<std::pair<const char*, double core::Travel::*>, 2> kMatrices{
+    {{"seconds", &core::Travel::seconds}, {"metres", &core::Travel::metres}}};
+
+/// Rounds up. What rounding may have added to a whole number does not count.
+std::int64_t rounded_up(double number) {
+  constexpr double kRounding = 1e-6;
+  return static_cast<std::int64_t>(std::max(std::ceil(number - kRounding), 0.0));
+}
+
+/// Returns the whole number that stands for no way: more than a tour over all poses of `from` can take, in
+/// seconds and in metres, so that solvers avoid it, and no more than 32 bits with a sign. So small a number
+/// leaves solvers room for sums of many. None if `stop` is met first.
+std::optional<std::int64_t> unreachable_number(const MatrixPoses& from, const core::TravelAnswers& answers,
+                                               const core::StopCondition& stop) {
+  std::int64_t most = 0;
+  for (const auto& [key, number] : kMatrices) {
+    std::vector<std::int64_t> longest(from.distinct.size(), 0);
+    for (const auto& column : answers) {
+      if (stop.met()) return std::nullopt;
+      for (std::size_t row = 0; row < column.size(); ++row) {
+        if (column[row]) longest[row] = std::max(longest[row], rounded_up((*column[row]).*number));
+      }
+    }
+    std::int64_t tour = 0;
+    for (const std::uint32_t row : from.index) tour += longest[row];
+    most = std::max(most, tour);
+  }
+  return std::min<std::int64_t>(most + 1, std::numeric_limits<std::int32_t>::max());
+}
+
+}  // namespace
+
 std::optional<std::string> write_matrix(const MatrixRequest& request, const core::TravelAnswers& answers,
                                         const core::StopCondition& stop) {
   constexpr std::size_t kBytesOfANumber = 20;
+  const bool is_whole = request.format == MatrixFormat::integers;
+  const auto unreachable =
+      is_whole ? unreachable_number(request.from, answers, stop) : std::optional<std::int64_t>(0);
+  if (!unreachable) return std::nullopt;
   JsonWriter json;
   json.reserve(2 * kBytesOfANumber * request.rows() * request.columns());
   json.begin_object();
-  for (const auto& [key, number] :
-       {std::pair{"seconds", &core::Travel::seconds}, std::pair{"metres", &core::Travel::metres}}) {
+  for (const auto& [key, number] : kMatrices) {
     json.key(key).begin_array();
     for (const std::uint32_t row : request.from.index) {
       if (stop.met()) return std::nullopt;
       json.begin_array();
       for (const std::uint32_t column : request.to.index) {
         const std::optional<core::Travel>& way = answers[column][row];
-        json.value(way ? std::optional((*way).*number) : std::nullopt);
+        if (is_whole) {
+          json.value(way ? rounded_up((*way).*number) : *unreachable);
+        } else {
+          json.value(way ? std::optional((*way).*number) : std::nullopt);
+        }
       }
       json.end_array();
     }
     json.end_array();
   }
+  if (is_whole) json.member("unreachable", *unreachable);
   json.key("warnings").begin_array();
   for (const std::string& warning : request.warnings) json.value(std::string_view(warning));
   json.end_array().end_object();

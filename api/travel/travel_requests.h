@@ -26,8 +26,11 @@
 
 namespace fleetplan::api {
 
-inline constexpr std::array<std::string_view, 6> kMatrixMembers{"map",  "zones", "robot",
-                                                                "from", "to",    "options"};
+inline constexpr std::array<std::string_view, 7> kMatrixMembers{"map", "zones",   "robot", "from",
+                                                                "to",  "options", "format"};
+
+/// How a matrix has its numbers: as they are, with null where there is no way, or as whole numbers.
+enum class MatrixFormat { numbers, integers };
 
 /// A pose in the map frame; without theta, in any heading.
 struct MatrixPose {
@@ -50,6 +53,7 @@ struct MatrixRequest {
   MatrixPoses to;                 // the columns
   core::PlanOptions options;
   std::chrono::nanoseconds budget;
+  MatrixFormat format = MatrixFormat::numbers;
   std::vector<std::string> warnings;
 
   std::size_t rows() const { return from.index.size(); }

@@ -26,6 +26,13 @@ constexpr std::size_t kWorkOfCovering = 16;
 /// millisecond.
 constexpr std::int64_t kWorkBetweenStops = 1 << 15;
 
+/// A step to a neighbour of a cell.
+struct Step {
+  int columns, rows;
+  int begin_column, begin_row;  // begin of the border, counted from the cell
+};
+constexpr std::array<Step, 4> kSteps{{{1, 0, 1, 0}, {-1, 0, 0, 0}, {0, 1, 0, 1}, {0, -1, 0, 0}}};
+
 /// The accuracy of the width of a way, metres.
 constexpr double kGapAccuracy = 0.001;
 
@@ -114,6 +121,59 @@ std::optional<double> Enclosure::widest_way(double limit, std::int64_t max_steps
   return 2.0 * open;
 }
 
+std::optional<NarrowPlace> Enclosure::narrowest_place(std::int64_t max_steps, std::int64_t& left) {
+  const double needed = clearance_;
+  double open = 0.5 * kGapAccuracy;
+  double closed = needed;
+  std::optional<Flood> closing;
+  const auto answer_at = [&](double clearance) {
+    clearance_ = clearance;
+    Flood found = flood(std::min(max_steps, left));
+    left -= steps_;
+    const Answer answer = found.answer;
+    if (answer == Answer::closed) closing = std::move(found);
+    return answer;
+  };
+  if (open >= closed || answer_at(open) != Answer::open || answer_at(closed) != Answer::closed) {
+    clearance_ = needed;
+    return std::nullopt;
+  }
+  // Bounded: by the accuracy, each flood by its steps.
+  while (closed - open > 0.5 * kGapAccuracy) {
+    const double middle = 0.5 * (open + closed);
+    const Answer answer = answer_at(middle);
+    if (answer == Answer::unknown) break;
+    (answer == Answer::open ? open : closed) = middle;
+  }
+  const bool is_exact = closed - open <= 0.5 * kGapAccuracy;
+  const auto gap = is_exact ? gap_of(*closing, open) : std::nullopt;
+  clearance_ = needed;
+  if (!gap) return std::nullopt;
+  return NarrowPlace{*gap, 2.0 * open, 2.0 * (needed + kSlack)};
+}
+
+/// Returns the middle of the first border of the area that is closed which is crossable with the narrower
+/// clearance.
+std::optional<Position> Enclosure::gap_of(Flood& closed, double narrower) {
+  clearance_ = narrower;
+  const Side own = Flood::kSides[closed.closed_side];
+  // Bounded: the cells that the flood reached.
+  for (const Cell& cell : closed.cells[closed.closed_side]) {
+    if (is_over()) break;
+    for (const Step& step : kSteps) {
+      const Cell next{cell.column + step.columns, cell.row + step.rows};
+      if (!grid_.inside(next) || closed.reached[grid_.index(next)] == own) continue;
+      const Border border{grid_.resolution() * Position(cell.column + step.begin_column,  //
+                                                        cell.row + step.begin_row),
+                          step.columns != 0};
+      if (!crossable(border, closed, closed.closed_side)) continue;
+      const Position along = border.vertical ? Position(0.0, 1.0) : Position(1.0, 0.0);
+      return border.begin + 0.5 * grid_.resolution() * along;
+    }
+  }
+  return std::nullopt;
+}
+
 /// Puts the removed disks back, one by one, if the way remains open with them. Returns the robots of the
 /// others.
 std::vector<std::size_t> Enclosure::necessary(const std::vector<Disk*>& removed, std::int64_t max_steps) {
@@ -165,15 +225,10 @@ bool Enclosure::is_over() {
 void Enclosure::expand(Flood& flood, std::size_t side) {
   const Cell cell = flood.cells[side][flood.expanded[side]++];
   ++work_;
-  struct Neighbour {
-    int columns, rows;
-    int begin_column, begin_row;  // begin of the border, counted from the cell
-  };
-  constexpr std::array<Neighbour, 4> kNeighbours{{{1, 0, 1, 0}, {-1, 0, 0, 0}, {0, 1, 0, 1}, {0, -1, 0, 0}}};
   const double half = 0.5 * grid_.resolution();
   const bool is_open =
       disks_.empty() && instance_.sight_past_walls().surely_free(grid_.center(cell), clearance_) >= half;
-  for (const Neighbour& step : kNeighbours) {
+  for (const Step& step : kSteps) {
     const Cell next{cell.column + step.columns, cell.row + step.rows};
     if (!grid_.inside(next)) continue;
     Side& reached = flood.reached[grid_.index(next)];

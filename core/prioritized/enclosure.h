@@ -12,6 +12,13 @@
 
 namespace fleetplan::core {
 
+/// Where a way between obstacles is too narrow for a robot, metres.
+struct NarrowPlace {
+  Position place;
+  double width = 0.0;
+  double needed = 0.0;  // by the robot, inflation included
+};
+
 /// Finds out whether obstacles and robots that stay for ever close off a robot's goal or its start.
 ///
 /// On its way the robot's centre crosses borders between cells. Two cells are joined if a point of their
@@ -44,6 +51,11 @@ class Enclosure {
   /// needs. None if no way is found within `max_steps` steps, or before the stop condition is met.
   std::optional<double> widest_way(double limit, std::int64_t max_steps);
 
+  /// Returns the narrowest place of the widest way between obstacles, for a robot that they close off, which
+  /// is found in floods of at most `max_steps` steps. Takes the steps from `left`. None if even a point has
+  /// no way, if a flood takes more steps or none are left, or if the stop condition is met first.
+  std::optional<NarrowPlace> narrowest_place(std::int64_t max_steps, std::int64_t& left);
+
  private:
   struct Disk {
     std::size_t robot;
@@ -64,6 +76,7 @@ class Enclosure {
 
   double required_clearance() const;
   Flood flood(std::int64_t max_steps);
+  std::optional<Position> gap_of(Flood& closed, double narrower);
   void expand(Flood& flood, std::size_t side);
   bool crossable(const Border& border, Flood& flood, std::size_t side);
   std::pair<Cell, Cell> cells_near(const Border& border);

@@ -208,13 +208,26 @@ class Examples(DocumentTest):
         self.assertRegex(done.stdout, r"(?s)\Asolved flowtime \d+\.\d+ s\nleft\n .*\nright\n .*\nparked\n\Z")
 
     def test_the_example_of_tasks_gives_each_robot_one(self):
-        (program,) = blocks("docs/assignment.md", "python")
+        _, program = blocks("docs/assignment.md", "python")
         self.assertIn(SERVICE, program)
         done = subprocess.run([sys.executable, "-c", program.replace(SERVICE, self.url)],
                               env={**os.environ, "PYTHONPATH": str(PROJECT / "clients/python")},
                               capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertRegex(done.stdout, r"\A(\w+ by amr-[12] after \d+\.\d s alone\n){2}solved after \d+\.\d s\n\Z")
+
+    def test_the_matrix_for_solvers_of_routes_has_whole_numbers(self):
+        program, _ = blocks("docs/assignment.md", "python")
+        self.assertIn(SERVICE, program)
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run([sys.executable, "-c", program.replace(SERVICE, self.url)], cwd=folder,
+                                  env={**os.environ, "PYTHONPATH": str(PROJECT / "clients/python")},
+                                  capture_output=True, text=True, check=False)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            problem = json.loads((pathlib.Path(folder) / "problem.json").read_text())
+        for matrix in problem["matrices"]["car"].values():
+            self.assertEqual([len(row) for row in matrix], [3, 3, 3])
+            self.assertTrue(all(type(number) is int for row in matrix for number in row))
 
     @unittest.skipUnless(shutil.which("curl") and shutil.which("jq"), "needs curl and jq")
     def test_the_shell_examples_with_curl_succeed(self):

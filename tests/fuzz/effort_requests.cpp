@@ -109,12 +109,13 @@ Json mask_for(const Json& map, Choices& choices) {
       pixels += static_cast<char>((column / side + 7 * (row / side)) % static_cast<std::size_t>(values));
     }
   }
+  const double size = map.value("resolution", 1.0);
+  Json mask{{"mode", choices.one_of(std::array{"raw", "scale"})}};
+  if (choices.yes()) mask.update({{"resolution", 0.7 * size}, {"origin", {size, -size, 1.5708}}});
   const std::string header = "P5 " + std::to_string(columns) + " " + std::to_string(rows) + " 255\n";
+  mask["pgm"] = support::base64(header + pixels);
   return {
-      {"id", "mask"},
-      {"type", choices.one_of(std::array{"blocked", "speed"})},
-      {"mask",
-       {{"pgm", support::base64(header + pixels)}, {"mode", choices.one_of(std::array{"raw", "scale"})}}}};
+      {"id", "mask"}, {"type", choices.one_of(std::array{"blocked", "speed"})}, {"mask", std::move(mask)}};
 }
 
 Json zones_of(const Json& map, const Extent& extent, Choices& choices) {
@@ -407,6 +408,7 @@ Json matrix_of(const Json& request) {
   Json matrix{{"map", request["map"]}, {"robot", request["robot_defaults"]}, {"from", from}, {"to", to}};
   if (request.contains("zones")) matrix["zones"] = request["zones"];
   matrix["options"] = request["options"];
+  if (from.size() % 2 == 1) matrix["format"] = "integers";
   return matrix;
 }
 

@@ -61,18 +61,30 @@ Json map_of(std::uint8_t form, const std::string& file) {
             {"mode", form / 4 % 3 == 0   ? "trinary"
                      : form / 4 % 3 == 1 ? "scale"
                                          : "raw"},
-            {"negate", form / 12 % 2}}},
+            {"negate", form / 12 % 2},
+            {"release", form / 48 % 2 == 0 ? "jazzy" : "humble"}}},
           {"unknown", form / 24 % 2 == 0 ? "blocked" : "free"}};
 }
 
+/// The image of a map as a mask of speeds, turned.
+Json zones_with(const Json& map, int quarter_turns) {
+  Json mask = map["image"];
+  mask["resolution"] = 0.07;
+  mask["origin"] = {0.3, 0.1, 1.5708 * quarter_turns};
+  if (quarter_turns % 2 == 1) mask.update({{"base", 30}, {"multiplier", 0.7}});
+  return Json::array({{{"id", "z"}, {"type", "speed"}, {"mask", mask}}});
+}
+
 void try_map(std::uint8_t form, const std::string& file) {
-  const Json request{{"map", map_of(form, file)},
-                     {"robots",
-                      {{{"id", "a"},
-                        {"radius", 0.001},
-                        {"linear_speed", 1},
-                        {"angular_speed", 1},
-                        {"start", {{"x", 0.05}, {"y", 0.05}}}}}}};
+  Json request{{"map", map_of(form, file)},
+               {"robots",
+                {{{"id", "a"},
+                  {"radius", 0.001},
+                  {"linear_speed", 1},
+                  {"angular_speed", 1},
+                  {"start", {{"x", 0.05}, {"y", 0.05}}}}}}};
+  const int zones = form / 48;
+  if (zones > 0 && request["map"].contains("image")) request["zones"] = zones_with(request["map"], zones - 1);
   const std::string body = request.dump(-1, ' ', false, Json::error_handler_t::replace);
   const api::Limits limits = small_limits();
   const auto parsed = api::parse_request(body, limits, unbounded_work());

@@ -8,7 +8,7 @@ import { zonesOf } from "../model/listed.js";
 export async function prepareRequest(request, work, nextTask) {
   await Promise.all([
     prepareMap(request?.map, work),
-    ...masksOf(request).map((mask) => prepareMask(mask, work)),
+    ...masksOf(request).map((mask) => prepareMask(mask, request?.map, work)),
   ]);
   await prepareCells(asRows(request?.map)?.rows ?? [], nextTask);
 }
@@ -26,8 +26,8 @@ function masksOf(request) {
     .filter((mask) => isObject(mask) && maskOf(mask) === null);
 }
 
-async function prepareMask(mask, work) {
-  const cells = await work.readMask(mask);
+async function prepareMask(mask, map, work) {
+  const cells = await work.readMask(mask, map);
   if (cells !== null) rememberMask(mask, cells);
 }
 

@@ -14,6 +14,7 @@ import {
   OCCUPIED_THRESH,
   UNKNOWN,
 } from "./ros_map.js";
+import { quarterTurnsOf, turned } from "./turns.js";
 import { writePng } from "./write_png.js";
 
 const MOST_AS_ROWS = 250_000; // cells: the image of a larger map is a hundredth of its rows
@@ -79,15 +80,18 @@ function rowsOfMovingAi({ movingai, resolution = 1, origin = { x: 0, y: 0 } }) {
 
 async function gridOfImage(image) {
   const encoded = image.png ?? image.pgm;
-  const [x = 0, y = 0] = Array.isArray(image.origin) ? image.origin : [];
-  if (typeof encoded !== "string" || !(image.resolution > 0)) return null;
+  const [x = 0, y = 0, yaw = 0] = Array.isArray(image.origin) ? image.origin : [];
+  const quarterTurns = quarterTurnsOf(yaw);
+  if (typeof encoded !== "string" || !(image.resolution > 0) || quarterTurns === null) return null;
   const described = {
     negate: image.negate === true || image.negate === 1,
     occupiedThresh: image.occupied_thresh ?? OCCUPIED_THRESH,
     freeThresh: image.free_thresh ?? FREE_THRESH,
     mode: image.mode ?? "trinary",
+    release: image.release,
     resolution: image.resolution,
     origin: { x, y },
+    quarterTurns,
   };
   return classifyPixels(described, await readImage(bytesOfBase64(encoded)));
 }
@@ -116,8 +120,30 @@ function gridOfOccupancy({ info, data }) {
       cells[(rows - 1 - row) * columns + column] = cellOfGiven(data[row * columns + column]);
     }
   }
-  const corner = info.origin?.position ?? {};
-  return { columns, rows, cells, resolution, origin: { x: corner.x ?? 0, y: corner.y ?? 0 } };
+  const { x = 0, y = 0 } = info.origin?.position ?? {};
+  const quarterTurns = turnsOfOrientation(info.origin?.orientation);
+  if (quarterTurns === null) return null;
+  return { ...turned({ columns, rows, cells }, resolution, { x, y }, quarterTurns), resolution };
+}
+
+function turnsOfOrientation({ z = 0, w = 1 } = {}) {
+  return quarterTurnsOf(z === 0 ? 0 : 2 * Math.atan2(z, w));
+}
+
+/** Where the raster of a map lies: {resolution, corner, quarterTurns}; null if that cannot be read. */
+export function placeOfMap(map) {
+  if (isObject(map?.image)) {
+    const [x = 0, y = 0, yaw = 0] = Array.isArray(map.image.origin) ? map.image.origin : [];
+    return { resolution: map.image.resolution, corner: { x, y }, quarterTurns: quarterTurnsOf(yaw) ?? 0 };
+  }
+  const info = map?.occupancy_grid?.info;
+  if (isObject(info)) {
+    const { x = 0, y = 0 } = info.origin?.position ?? {};
+    const quarterTurns = turnsOfOrientation(info.origin?.orientation) ?? 0;
+    return { resolution: info.resolution, corner: { x, y }, quarterTurns };
+  }
+  const { resolution = 1, origin } = map ?? {};
+  return { resolution, corner: { x: origin?.x ?? 0, y: origin?.y ?? 0 }, quarterTurns: 0 };
 }
 
 const cellOfGiven = (percent) => cellOf(percent < 0 ? null : percent);

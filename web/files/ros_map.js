@@ -1,10 +1,12 @@
-// Maps of ROS: a map.yaml and its image as the map of a request, interpreted as in map_server.
+// Maps of ROS: a map.yaml and its image as the map of a request, interpreted as in map_server of Jazzy and later, or of
+// Humble.
 //
 // A grid here is {columns, rows, cells, resolution, origin}: `cells` row by row from the top, `resolution` in
 // metres, `origin` {x, y} the lower-left corner.
 
 import { FileError } from "../model/problem.js";
 import { plusTimes } from "./text.js";
+import { quarterTurnsOf, turned } from "./turns.js";
 import { readYaml } from "./yaml.js";
 
 export const FREE = 0;
@@ -19,7 +21,7 @@ const NOT_KNOWN = 255; // no cell
 const MODES = ["trinary", "scale", "raw"];
 
 /**
- * The content of a map.yaml: {image, resolution, origin: {x, y}, yaw, negate, occupiedThresh, freeThresh,
+ * The content of a map.yaml: {image, resolution, origin: {x, y}, quarterTurns, negate, occupiedThresh, freeThresh,
  * mode, warnings}. Throws FileError.
  */
 export function readRosYaml(text) {
@@ -35,15 +37,18 @@ export function readRosYaml(text) {
   if (!Array.isArray(origin) || origin.length < 2 || !origin.every(Number.isFinite))
     throw new FileError("origin must be a list of numbers: [x, y, yaw] of the lower-left pixel.");
   const yaw = origin[2] ?? 0;
-  if (yaw !== 0)
-    warnings.push(`ROS rotates the map by ${yaw} rad (the yaw of its origin); the rotation is ignored here.`);
+  const quarterTurns = quarterTurnsOf(yaw);
+  if (quarterTurns === null)
+    warnings.push(
+      `ROS turns the map by ${yaw} rad (the yaw of its origin), which is no quarter turn: it is ignored here.`,
+    );
   const mode = given.mode ?? "trinary";
   if (!MODES.includes(mode)) throw new FileError(`mode is ${mode}; map_server knows ${MODES.join(", ")}.`);
   const described = {
     image,
     resolution,
     origin: { x: origin[0], y: origin[1] },
-    yaw,
+    quarterTurns: quarterTurns ?? 0,
     negate: given.negate === true || given.negate === 1,
     occupiedThresh: thresholdIn(given, "occupied_thresh", OCCUPIED_THRESH, warnings),
     freeThresh: thresholdIn(given, "free_thresh", FREE_THRESH, warnings),
@@ -89,11 +94,43 @@ export function classifyPixels(described, { width, height, channels, largest, va
       cells[index] = known[values[index]];
     }
   }
-  return { columns: width, rows: height, cells, resolution, origin };
+  const place = turned(
+    { columns: width, rows: height, cells },
+    resolution,
+    origin,
+    described.quarterTurns ?? 0,
+  );
+  return { ...place, resolution };
 }
 
 /** The percentage that map_server publishes for a pixel, or null if it is unknown. */
 export function occupancyOf(described, pixel, largest) {
+  if (described.release === "humble") return occupancyOfHumble(described, pixel, largest);
+  const { negate, mode } = described;
+  if (pixel.length % 2 === 0 && pixel[pixel.length - 1] < largest) return null; // not opaque
+  const gray = grayOf(pixel, largest);
+  if (mode === "raw") return gray <= 100 ? gray : null;
+  const single = Math.fround; // map_server computes in single precision
+  const shade = single(gray / 255);
+  const occupied = negate ? shade : single(1 - shade);
+  const [most, least] = [single(described.freeThresh), single(described.occupiedThresh)];
+  if (occupied <= most) return 0;
+  if (occupied >= least) return 100;
+  if (mode === "trinary") return null;
+  const range = single(described.occupiedThresh - described.freeThresh);
+  const share = single(single(occupied - most) / range);
+  return Math.min(100, Math.round(single(share * 100)));
+}
+
+/** The gray of a pixel, 0 to 255: the luma of Rec. 601 in 16 bits, rounded, of which the upper 8 bits are taken. */
+function grayOf(pixel, largest) {
+  const wide = (channel) => Math.floor((2 * 65535 * channel + largest) / (2 * largest));
+  if (pixel.length < 3) return Math.floor(wide(pixel[0]) / 257);
+  const luma = 299 * wide(pixel[0]) + 587 * wide(pixel[1]) + 114 * wide(pixel[2]) + 500;
+  return Math.floor(Math.floor(luma / 1000) / 257);
+}
+
+function occupancyOfHumble(described, pixel, largest) {
   const { negate, occupiedThresh, freeThresh, mode } = described;
   const alpha = pixel.length % 2 === 0 ? pixel[pixel.length - 1] : null;
   const sum = pixel.length < 3 ? 3 * pixel[0] : pixel[0] + pixel[1] + pixel[2];
@@ -111,7 +148,7 @@ export function occupancyOf(described, pixel, largest) {
   return ((occupied - freeThresh) / (occupiedThresh - freeThresh)) * 100; // rounded by map_server, see cellOf
 }
 
-/** The cell of a percentage, or of null. map_server rounds: 64.5 to the even 64, which is unknown, 25.5 to 26. */
+/** The cell of a percentage, or of null. That of Humble rounds: 64.5 to the even 64, which is unknown, 25.5 to 26. */
 export function cellOf(percent) {
   if (percent === null) return UNKNOWN;
   if (percent > LEAST_OCCUPIED - 0.5) return OCCUPIED;

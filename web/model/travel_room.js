@@ -5,10 +5,11 @@ import { cornersOf } from "./edit_zones.js";
 import { nextTask } from "./latest.js";
 import { CONTACT, nearestFreePlace } from "./placement.js";
 import { distanceToPolygon } from "./polygon.js";
-import { OCCUPIED, zonesFor } from "./zones.js";
+import { isOnMap, OCCUPIED, zonesFor } from "./zones.js";
 
 /** @import {Grid, Position, Robot} from "./types.js" */
 
+const ON_BORDER = 1e-6; // cells: so near to a border is on it
 const PIECE = 200_000; // cells that are looked at in one go
 
 /**
@@ -21,18 +22,38 @@ export async function roomOf(request, grid, robot) {
   const walls = zonesFor(request, id).filter(({ type, enter }) => type === "blocked" && enter !== false);
   const masks = walls.flatMap(({ mask }) => {
     const drawn = maskOf(mask);
-    return drawn !== null && isOn(drawn, grid) ? [drawn] : [];
+    return drawn !== null && isOnMap(drawn, grid) ? [drawn] : [];
   });
   let { blocked } = grid;
-  for (const { percents } of masks) {
-    blocked = blocked.map((wall, at) => wall | Number(percents[at] >= OCCUPIED));
+  for (const mask of masks) {
+    blocked = mask.isFramed ? withCellsUnder(mask, grid, blocked) : withCells(mask, blocked);
     await nextTask();
   }
   const polygons = walls.map(cornersOf).filter((corners) => corners.length > 0);
   return new Room({ ...grid, blocked }, radius, polygons);
 }
 
-const isOn = (mask, { columns, rows }) => mask.columns === columns && mask.rows === rows;
+const withCells = ({ percents }, blocked) =>
+  blocked.map((wall, at) => wall | Number(percents[at] >= OCCUPIED));
+
+/** With the cells of the map that an occupied cell of a mask in a frame of its own overlaps. */
+function withCellsUnder(mask, grid, blocked) {
+  const made = blocked.slice();
+  const cells = (from, to, most) => [
+    Math.max(0, Math.floor(from / grid.resolution + ON_BORDER)),
+    Math.min(most, Math.ceil(to / grid.resolution - ON_BORDER)),
+  ];
+  mask.percents.forEach((percent, at) => {
+    if (percent < OCCUPIED) return;
+    const left = mask.bounds.left + (at % mask.columns) * mask.resolution - grid.bounds.left;
+    const top = grid.bounds.top - (mask.bounds.top - Math.floor(at / mask.columns) * mask.resolution);
+    const [first, last] = cells(left, left + mask.resolution, grid.columns);
+    const [highest, lowest] = cells(top, top + mask.resolution, grid.rows);
+    for (let row = highest; row < lowest; row += 1)
+      made.fill(1, row * grid.columns + first, row * grid.columns + Math.max(first, last));
+  });
+  return made;
+}
 
 class Room {
   #grid;

@@ -190,10 +190,11 @@
  * MovingObstacle */
 
 /** The cells of a zone, row by row from the top, see zone_masks.js.
- * @typedef {{columns: number, rows: number, percents: Uint8Array}} Mask */
+ * @typedef {{columns: number, rows: number, percents: Uint8Array, limits: Uint8Array, bounds: Bounds,
+ *   resolution: number, isFramed: boolean}} Mask */
 
 /**
- * A zone as it is drawn: a polygon, or a mask over the map's `bounds`; `heading` of one-way zones only.
+ * A zone as it is drawn: a polygon, or a mask over its `bounds`; `heading` of one-way zones only.
  * @typedef {{type: "blocked" | "speed" | "one_way", polygon: Position[], mask: Mask | null, bounds: Bounds | null,
  * middle: Position, heading: number | null, label: string}} Zone
  */

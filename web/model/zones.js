@@ -41,11 +41,15 @@ function polygonZone(zone) {
   };
 }
 
-/** A zone with a mask of the size of the map, or null. */
+/** Whether a mask lies on the map: in a frame of its own, or with a pixel for each of its cells. */
+export const isOnMap = (mask, grid) =>
+  grid !== null && (mask.isFramed || (mask.columns === grid.columns && mask.rows === grid.rows));
+
+/** A zone with a mask, or null. */
 function maskZone(zone, grid) {
   const mask = maskOf(zone?.mask);
-  if (mask === null || mask.columns !== grid?.columns || mask.rows !== grid.rows) return null;
-  const { bounds, resolution } = grid;
+  if (mask === null || !isOnMap(mask, grid)) return null;
+  const { bounds, resolution } = mask.isFramed ? mask : grid;
   const { column, row } = middleOfMask(mask);
   const middle = { x: bounds.left + column * resolution, y: bounds.top - row * resolution };
   return { type: zone.type, polygon: [], mask, bounds, middle, heading: null, label: labelOf(zone) };

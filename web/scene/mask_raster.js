@@ -13,7 +13,7 @@ export function opacityOf(type, percent) {
 
 const made = new WeakMap(); // mask -> {key, canvas}
 
-/** The image of a mask ({columns, rows, percents}) in a colour. */
+/** The image of a mask (see zone_masks.js) in a colour. */
 export function rasterOf(mask, type, colour) {
   const key = `${type} ${colour}`;
   const known = made.get(mask);
@@ -22,7 +22,8 @@ export function rasterOf(mask, type, colour) {
   Object.assign(canvas, { width: mask.columns, height: mask.rows });
   const context = contextOf(canvas);
   const image = context.createImageData(mask.columns, mask.rows);
-  mask.percents.forEach((percent, at) => (image.data[4 * at + 3] = opacityOf(type, percent)));
+  const percentOf = (percent) => (type === "speed" ? mask.limits[percent] : percent);
+  mask.percents.forEach((percent, at) => (image.data[4 * at + 3] = opacityOf(type, percentOf(percent))));
   context.putImageData(image, 0, 0);
   context.globalCompositeOperation = "source-in";
   context.fillStyle = colour;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <optional>
 #include <set>
 
@@ -175,18 +176,66 @@ std::string obstacle_name(const core::ProblemFault& found, const std::vector<cor
                     : "a blocked cell or the edge of the map";
 }
 
-/// Returns the detail of a disk in an obstacle. `outside`: see outside_text.
+/// Returns the detail of a disk in an obstacle. `outside`: see outside_text; `remedy` begins with a space.
 std::string in_obstacle(const std::string& pose, double radius, double gap, const std::string& obstacle,
-                        const std::string& outside) {
+                        const std::string& outside, const std::string& remedy) {
   if (!outside.empty()) return "The " + pose + ' ' + outside;
   return "The " + pose + " does not fit: its disk overlaps " + obstacle + " by " + metres(-gap) +
-         " (radius " + number_text(radius) + " m). Move it or make the robot smaller.";
+         " (radius " + number_text(radius) + " m)." + remedy;
 }
 
-std::string overlap(const char* poses, const std::string& earlier, const std::string& later, double gap) {
-  return "The " + std::string(poses) + " of robots " + earlier + " and " + later +
-         " overlap: the gap between their disks is " + metres(gap) + "; move them apart.";
+/// Returns a length for a remedy, rounded up to millimetres.
+std::string rounded_up(double length) {
+  constexpr double kPerMetre = 1e3;
+  return number_text(std::ceil(length * kPerMetre) / kPerMetre);
 }
+
+/// Returns a coordinate in the world of NearestGoals, which has six decimals at most.
+std::string coordinate_text(double world) {
+  constexpr double kDecimals = 1e6;
+  return number_text(std::round(world * kDecimals) / kDecimals);
+}
+
+/// Returns what helps a goal at this place of the request that does not fit.
+std::string goal_remedy(const core::ProblemFault& found, const JsonReader& goal, const WorldFrame& frame,
+                        NearestGoals& nearest) {
+  const auto position = position_of(goal);
+  const auto place = position ? nearest.of(found, frame.to_map(*position)) : std::nullopt;
+  if (!place) return " Move it, or make the robot smaller.";
+  const Position world = frame.to_world(*place);
+  return " The nearest place that fits is (" + coordinate_text(world.x()) + ", " +
+         coordinate_text(world.y()) + "), " + metres((world - *position).norm()) +
+         " away. Move the goal there, or make the robot smaller.";
+}
+
+/// Returns what helps a start that does not fit. A robot that was measured there stands there.
+std::string start_remedy(const core::ProblemFault& found, double radius, double inflation) {
+  std::string text = " If the robot stands there, as in a dock or beside a wall,";
+  const double needed = inflation - found.gap;
+  const bool is_outside = -found.gap < (1.0 - 2.0 * core::kSmallestDisk) * radius;
+  if (is_outside) text += " give options.start_overlap of at least " + rounded_up(needed) + " m";
+  if (found.zone) text += std::string(is_outside ? ", or" : " give") + " the zone \"enter\": false";
+  if (!is_outside && !found.zone) return " Move it, or correct the map or the radius.";
+  return text + ". Otherwise move it, or make the robot smaller.";
+}
+
+std::string overlap(const char* poses, const std::string& earlier, const std::string& later, double gap,
+                    const std::string& remedy) {
+  return "The " + std::string(poses) + " of robots " + earlier + " and " + later +
+         " overlap: the gap between their disks is " + metres(gap) + "; move them apart" + remedy;
+}
+
+/// Returns what helps starts that overlap: measured positions are never exact. Of disks that overlap by half,
+/// one is not where it should be.
+std::string starts_remedy(double gap, double sum, double inflation) {
+  if (-gap > 0.5 * sum) return ".";
+  return ", or if they were measured there, give options.start_overlap of at least " +
+         rounded_up(2.0 * inflation - gap) + " m.";
+}
+
+constexpr const char* kGoalsRemedy =
+    ", let one of the robots go on after its goal with \"idle\": \"yield\", or give them a choice of poses "
+    "with any_of.";
 
 std::string goal_name(const ParsedRobot& read, std::size_t goal) {
   return read.goals.size() < 2 ? "goal" : "goal " + std::to_string(goal) + " (from 0)";
@@ -204,12 +253,18 @@ JsonReader action_at(const ParsedRobot& read, double t, bool begins = false) {
   return place;
 }
 
+/// `rests`: the other robot has no motion, and no goal.
 std::string collision(const core::ProblemFault& found, const std::string& robot, const std::string& other,
-                      const std::string& obstacle) {
+                      const std::string& obstacle, const std::string& rests) {
   const std::string at = " at t = " + number_text(found.t) + " s";
   if (found.other == found.robot) {
     return "The committed motion of robot " + robot + " overlaps " + obstacle + " by " + metres(-found.gap) +
            at + "; correct the actions or the " + (found.zone ? "zone." : "map.");
+  }
+  if (!rests.empty()) {
+    return "The committed motion of robot " + robot + " meets robot " + other + at +
+           ": the gap between their disks is " + metres(found.gap) + ". Robot " + rests +
+           " has no goal and stays; let it make way with \"idle\": \"yield\", or commit fewer actions.";
   }
   return "The committed motion of robot " + robot + " meets robot " + other + at +
          ": the gap between their disks is " + metres(found.gap) +
@@ -218,34 +273,62 @@ std::string collision(const core::ProblemFault& found, const std::string& robot,
 
 }  // namespace
 
-std::string describe_pose(const core::ProblemFault& found, const JsonReader& pose, double radius,
-                          const std::vector<core::Zone>& zones, const core::OccupancyGrid& grid,
-                          const WorldFrame& frame) {
-  return in_obstacle("pose", radius, found.gap, obstacle_name(found, zones), outside_text(pose, grid, frame));
+std::optional<Position> NearestGoals::of(const core::ProblemFault& found, const Position& goal) {
+  if (!maps_.finished()) return std::nullopt;
+  const double radius = found.radius + inflation_ - core::kContactTolerance + core::kSearchSlack;
+  const double overlap = std::max(-found.gap - core::kContactTolerance, 0.0) + inflation_;
+  return places_.of(maps_.while_leaving(found.robot)->sight(), goal, radius, overlap);
 }
 
+std::string describe_pose(const core::ProblemFault& found, const JsonReader& pose, const core::Robot& robot,
+                          double inflation, const std::vector<core::Zone>& zones,
+                          const core::OccupancyGrid& grid, const WorldFrame& frame, NearestGoals& nearest) {
+  const std::string remedy = found.kind == core::ProblemFault::Kind::start_in_obstacle
+                                 ? start_remedy(found, robot.radius, inflation)
+                                 : goal_remedy(found, pose, frame, nearest);
+  return in_obstacle("pose", robot.radius, found.gap, obstacle_name(found, zones),
+                     outside_text(pose, grid, frame), remedy);
+}
+
+namespace {
+
+/// Whether a robot of the fleet stays where it is: it has neither a goal nor motion.
+bool rests(const ParsedRobot& read) {
+  return read.goals.empty() && read.committed.size() == 0 && read.idle.value_or(Idle::stay) == Idle::stay;
+}
+
+}  // namespace
+
 GeometryFault describe(const core::ProblemFault& found, const Fleet& fleet,
-                       const std::vector<std::size_t>& indices, const core::OccupancyGrid& grid) {
+                       const std::vector<std::size_t>& indices, const core::OccupancyGrid& grid,
+                       NearestGoals& nearest) {
   using Kind = core::ProblemFault::Kind;
   const std::vector<ParsedRobot>& robots = fleet.robots;
   const std::string obstacle = obstacle_name(found, fleet.zones);
   const ParsedRobot& read = robots[indices[found.robot]];
+  const ParsedRobot& read_other = robots[indices[found.other]];
   const std::string name = name_of(robots, indices[found.robot]);
   const std::string other = name_of(robots, indices[found.other]);
-  const auto outside = [&](const JsonReader& pose) { return outside_text(pose, grid, fleet.map->frame); };
+  const double inflation = fleet.options.plan.inflation;
+  const WorldFrame& frame = fleet.map->frame;
   switch (found.kind) {
     case Kind::start_in_obstacle:
-      return {
-          read.start, fault::kStartInObstacle,
-          in_obstacle("start of robot " + name, read.robot.radius, found.gap, obstacle, outside(read.start))};
+      return {read.start, fault::kStartInObstacle,
+              in_obstacle("start of robot " + name, read.robot.radius, found.gap, obstacle,
+                          outside_text(read.start, grid, frame),
+                          start_remedy(found, read.robot.radius, inflation))};
     case Kind::goal_in_obstacle:
       return {read.goals[found.goal], fault::kGoalInObstacle,
               in_obstacle(goal_name(read, found.goal) + " of robot " + name, found.radius, found.gap,
-                          obstacle, outside(read.goals[found.goal]))};
+                          obstacle, outside_text(read.goals[found.goal], grid, frame),
+                          goal_remedy(found, read.goals[found.goal], frame, nearest))};
     case Kind::starts_overlap:
-      return {read.start, fault::kStartsOverlap, overlap("starts", other, name, found.gap)};
+      return {read.start, fault::kStartsOverlap,
+              overlap("starts", other, name, found.gap,
+                      starts_remedy(found.gap, read.robot.radius + read_other.robot.radius, inflation))};
     case Kind::goals_overlap:
-      return {read.goals.back(), fault::kGoalsOverlap, overlap("goals", other, name, found.gap)};
+      return {read.goals.back(), fault::kGoalsOverlap,
+              overlap("goals", other, name, found.gap, kGoalsRemedy)};
     case Kind::committed_in_zone:
       return {action_at(read, found.t, true), fault::kCommittedInZone,
               "This committed action of robot " + name + " breaks the rule of the zone " +
@@ -255,7 +338,9 @@ GeometryFault describe(const core::ProblemFault& found, const Fleet& fleet,
     case Kind::committed_collision:
       break;
   }
-  return {action_at(read, found.t), fault::kCommittedCollision, collision(found, name, other, obstacle)};
+  const std::string resting = rests(read) ? name : rests(read_other) ? other : "";
+  return {action_at(read, found.t), fault::kCommittedCollision,
+          collision(found, name, other, obstacle, resting)};
 }
 
 }  // namespace fleetplan::api

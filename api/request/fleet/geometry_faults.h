@@ -3,17 +3,40 @@
 // The faults that the core finds in poses and committed motion, in the words of the request.
 
 #include <cstddef>
+#include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "api/json/json_reader.h"
 #include "api/request/parse_body.h"
 #include "core/map/occupancy_grid.h"
 #include "core/map/static_map.h"
+#include "core/model/nearest_pose.h"
 #include "core/model/problem.h"
+#include "core/model/ways_out.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::api {
+
+/// Finds places for goals that do not fit.
+class NearestGoals {
+ public:
+  /// For so many robots on this map, with zones and an inflation.
+  NearestGoals(std::shared_ptr<const core::StaticMap> map, const std::vector<core::Zone>& zones,
+               std::size_t robots, double inflation, const WorldFrame& frame, const core::StopCondition& stop)
+      : inflation_(inflation), maps_(std::move(map), zones, robots, stop), places_(frame.origin, stop) {}
+
+  /// Returns the nearest place that fits for a fault of the kind goal_in_obstacle, inflation included; none
+  /// if none is found. `goal` is where the goal is. Both are in the map frame.
+  std::optional<core::Position> of(const core::ProblemFault& found, const core::Position& goal);
+
+ private:
+  double inflation_;
+  core::ZoneMaps maps_;
+  core::NearestPlaces places_;
+};
 
 /// A fault of poses or committed motion as the client sees it.
 struct GeometryFault {
@@ -22,16 +45,17 @@ struct GeometryFault {
   std::string detail;
 };
 
-/// Returns the words for a pose that a robot of this radius cannot have, because of an obstacle. `zones` are
-/// those of the problem.
-std::string describe_pose(const core::ProblemFault& found, const JsonReader& pose, double radius,
-                          const std::vector<core::Zone>& zones, const core::OccupancyGrid& grid,
-                          const WorldFrame& frame);
+/// Returns the words for a pose that a robot cannot have, because of an obstacle. `zones` are those of the
+/// problem, whose map is `grid`.
+std::string describe_pose(const core::ProblemFault& found, const JsonReader& pose, const core::Robot& robot,
+                          double inflation, const std::vector<core::Zone>& zones,
+                          const core::OccupancyGrid& grid, const WorldFrame& frame, NearestGoals& nearest);
 
 /// Returns the words for a fault. `indices` are those of the problem's robots in the fleet, whose map is
 /// `grid`.
 GeometryFault describe(const core::ProblemFault& found, const Fleet& fleet,
-                       const std::vector<std::size_t>& indices, const core::OccupancyGrid& grid);
+                       const std::vector<std::size_t>& indices, const core::OccupancyGrid& grid,
+                       NearestGoals& nearest);
 
 /// Returns a sentence about one mistake that explains all of the faults, or nothing if none does: the map or
 /// the poses are upside down, or radii are diameters. Looks at each pose twice at most, and ends at the first

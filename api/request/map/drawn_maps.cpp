@@ -124,7 +124,7 @@ std::optional<WorldMap> parse_rows_map(const JsonReader& map, std::int64_t max_c
                  frame.resolution);
   }
   if (!rows || map.fault_count() != before) return std::nullopt;
-  return WorldMap{draw(*rows, frame.resolution, map.work()), frame.frame};
+  return WorldMap{draw(*rows, frame.resolution, map.work()), frame.frame, {frame.frame.origin, 0}, {}};
 }
 
 namespace {
@@ -276,7 +276,7 @@ std::optional<WorldMap> parse_movingai_map(const JsonReader& map, std::int64_t m
   check_extent(resolution ? resolution : member, static_cast<double>(*sizes->width),
                static_cast<double>(*sizes->height), frame.resolution);
   if (map.fault_count() != before || map.work().met()) return std::nullopt;
-  return WorldMap{draw(*rows, frame.resolution, map.work()), frame.frame};
+  return WorldMap{draw(*rows, frame.resolution, map.work()), frame.frame, {frame.frame.origin, 0}, {}};
 }
 
 }  // namespace fleetplan::api

@@ -15,6 +15,7 @@
 #include "api/json/json_reader.h"
 #include "api/request/limits.h"
 #include "api/request/map/image/decode_image.h"
+#include "api/request/map/raster_place.h"
 
 namespace fleetplan::api {
 
@@ -98,50 +99,19 @@ std::optional<WorldMap> parse_map(const JsonReader& member, std::int64_t max_cel
 
 namespace {
 
-/// Ends the fault of a map that is turned.
-constexpr std::string_view kTurnRemedy =
-    "; turn the image, or give 0 and all poses in the frame of the image";
-
 /// What a message of the type nav_msgs/OccupancyGrid says.
 struct OccupancyMessage {
   Raster raster;
   double resolution = 0.0;  // metres
-  WorldFrame frame;
+  RasterPose pose;
 };
 
 constexpr std::array<std::string_view, 3> kMessageMembers{"header", "info", "data"};
 constexpr std::array<std::string_view, 5> kInfoMembers{"map_load_time", "resolution", "width", "height",
                                                        "origin"};
-constexpr std::array<std::string_view, 2> kPoseMembers{"position", "orientation"};
-constexpr std::array<std::string_view, 3> kPositionMembers{"x", "y", "z"};
-constexpr std::array<std::string_view, 4> kQuaternionMembers{"x", "y", "z", "w"};
-constexpr Range kUnit{-2.0, 2.0, "of a quaternion of length 1"};
-constexpr double kTurnTolerance = 1e-6;  // radians, of quaternions computed from angles in single precision
 constexpr std::uint64_t kLongestMessageSide = std::numeric_limits<std::int32_t>::max();
 constexpr std::uint64_t kFull = 100;      // percent
 constexpr std::size_t kWorkOfAnItem = 8;  // work of reading an item, in bytes of text
-
-/// Reports a rotation. All components 0, as in a message that was never filled, is none.
-void check_orientation(const JsonReader& member) {
-  const std::size_t before = member.fault_count();
-  const JsonReader quaternion = member.object(kQuaternionMembers);
-  const auto component = [&](const char* name) { return quaternion.find(name).number(kUnit).value_or(0.0); };
-  const double turned =
-      std::max({std::abs(component("x")), std::abs(component("y")), std::abs(component("z"))});
-  const double w = quaternion.find("w") ? component("w") : 1.0;
-  if (!quaternion || member.fault_count() != before || turned <= kTurnTolerance / 2.0 * std::abs(w)) return;
-  quaternion.fault(fault::kOutOfRange,
-                   "The map is turned by its orientation; maps must not be" + std::string(kTurnRemedy) + ".");
-}
-
-WorldFrame parse_message_origin(const JsonReader& member) {
-  const JsonReader pose = member.object(kPoseMembers);
-  const JsonReader position = pose.find("position").object(kPositionMembers);
-  const double x = position.require("x").number(kCoordinate).value_or(0.0);
-  const double y = position.require("y").number(kCoordinate).value_or(0.0);
-  check_orientation(pose.find("orientation"));
-  return {{x, y}};
-}
 
 /// Reads the number of columns or rows.
 std::optional<std::uint64_t> parse_side(const JsonReader& member) {
@@ -198,7 +168,7 @@ std::optional<OccupancyMessage> parse_occupancy_message(const JsonReader& messag
   const auto resolution = length.number(kLength);
   const auto columns = parse_side(info.require("width"));
   const auto rows = parse_side(info.require("height"));
-  const WorldFrame frame = parse_message_origin(info.find("origin"));
+  const RasterPose pose = parse_message_origin(info.find("origin"));
   const JsonReader data = read.require("data").array();
   if (!data || !columns || !rows || !check_cells(info.find("width"), *columns, *rows, max_cells))
     return std::nullopt;
@@ -212,47 +182,60 @@ std::optional<OccupancyMessage> parse_occupancy_message(const JsonReader& messag
   auto percents = parse_data(data);
   if (!percents || message.fault_count() != before) return std::nullopt;
   return OccupancyMessage{
-      {static_cast<int>(*columns), static_cast<int>(*rows), std::move(*percents)}, *resolution, frame};
+      {static_cast<int>(*columns), static_cast<int>(*rows), std::move(*percents)}, *resolution, pose};
 }
 
 constexpr std::int8_t kLeastBlocked = 65;  // percent
 constexpr std::int8_t kMostFree = 25;
 constexpr std::array<std::string_view, 2> kUnknown{"blocked", "free"};
-constexpr std::array<std::string_view, 9> kMapImageMembers{
-    "pgm", "png", "resolution", "origin", "negate", "occupied_thresh", "free_thresh", "mode", "image"};
-constexpr std::size_t kOriginLength = 3;
+constexpr std::array<std::string_view, 10> kMapImageMembers{
+    "pgm",         "png",  "resolution", "origin", "negate", "occupied_thresh",
+    "free_thresh", "mode", "image",      "release"};
 
 /// Reads whether unknown cells are free.
 bool parse_unknown(const JsonReader& member) { return member.word(kUnknown).value_or(0) == 1; }
 
-core::OccupancyGrid draw(const Raster& raster, double resolution, bool unknown_is_free, core::Work& work) {
-  const auto blocked = [&](std::int8_t percent) {
-    return percent >= kLeastBlocked || (!unknown_is_free && (percent > kMostFree || percent < 0));
-  };
-  core::OccupancyGrid grid(raster.columns, raster.rows, resolution);
-  for (int row = 0; row < raster.rows && !work.met_after(static_cast<std::size_t>(raster.columns)); ++row) {
-    for (int column = 0; column < raster.columns; ++column) {
-      if (blocked(raster.at(column, row))) grid.block({column, row});
-    }
-  }
-  return grid;
+bool is_blocked(std::int8_t percent, bool unknown_is_free) {
+  return percent >= kLeastBlocked || (!unknown_is_free && (percent > kMostFree || percent < 0));
 }
 
-/// Reads the origin from map_server's list of x, y and yaw.
-WorldFrame parse_image_origin(const JsonReader& member) {
-  const JsonReader origin = member.array();
-  if (!origin) return {};
-  if (origin.size() != kOriginLength) {
-    origin.must_be(fault::kWrongSize, "the list of x, y and yaw as in map.yaml",
-                   "; it has " + std::to_string(origin.size()) + " items");
-    return {};
+Meanings meanings_of_cells(bool unknown_is_free) {
+  Meanings meanings{};
+  for (std::size_t index = 0; index < meanings.size(); ++index) {
+    const auto percent = static_cast<std::int8_t>(static_cast<int>(index) + kUnknownOccupancy);
+    meanings[index] = is_blocked(percent, unknown_is_free) ? 1 : 0;
   }
-  const double x = origin.item(0).number(kCoordinate).value_or(0.0);
-  const double y = origin.item(1).number(kCoordinate).value_or(0.0);
-  const auto yaw = origin.item(2).number(kAnyAngle);
-  if (yaw && *yaw != 0.0)
-    origin.item(2).must_be(fault::kOutOfRange, "0, because maps are not turned", kTurnRemedy);
-  return {{x, y}};
+  return meanings;
+}
+
+/// Returns the map of a raster, turned as its pose says. Ends early when `work` is met.
+WorldMap map_of(const Raster& raster, double resolution, const RasterPose& pose, bool unknown_is_free,
+                core::Work& work) {
+  const bool is_across = pose.quarter_turns % 2 == 1;
+  core::OccupancyGrid grid(is_across ? raster.rows : raster.columns, is_across ? raster.columns : raster.rows,
+                           resolution);
+  for (int row = 0; row < raster.rows && !work.met_after(static_cast<std::size_t>(raster.columns)); ++row) {
+    for (int column = 0; column < raster.columns; ++column) {
+      if (!is_blocked(raster.at(column, row), unknown_is_free)) continue;
+      grid.block(turned_cell({column, row}, raster.columns, raster.rows, pose.quarter_turns));
+    }
+  }
+  const WorldFrame frame{lower_left_of(pose, raster.columns * resolution, raster.rows * resolution)};
+  return WorldMap{std::move(grid), frame, pose, {}};
+}
+
+/// Returns warnings about pixels that may not mean what they are read as.
+std::vector<std::string> image_warnings(const DecodedImage& image, bool unknown_is_free) {
+  std::vector<std::string> warnings;
+  if (image.changed > 0) warnings.push_back(changed_pixels_warning("map.image", image.changed));
+  if (image.free_unknown > 0 && !unknown_is_free) {
+    warnings.push_back(
+        "free_thresh (" + number_text(image.rule.free_thresh) + ") of map.image makes the gray " +
+        std::to_string(kUnknownGray) + " free, with which map_saver writes unknown cells; " +
+        std::to_string(image.free_unknown) + (image.free_unknown == 1 ? " pixel has it" : " pixels have it") +
+        ". Give 0.196 to keep them unknown, or \"unknown\": \"free\" if they may be driven on.");
+  }
+  return warnings;
 }
 
 }  // namespace
@@ -262,7 +245,7 @@ std::optional<WorldMap> parse_occupancy_grid_map(const JsonReader& map, std::int
   const bool unknown_is_free = parse_unknown(map.find("unknown"));
   const auto message = parse_occupancy_message(map.find("occupancy_grid"), max_cells);
   if (!message || map.fault_count() != before) return std::nullopt;
-  return WorldMap{draw(message->raster, message->resolution, unknown_is_free, map.work()), message->frame};
+  return map_of(message->raster, message->resolution, message->pose, unknown_is_free, map.work());
 }
 
 std::optional<WorldMap> parse_image_map(const JsonReader& map, std::int64_t max_cells) {
@@ -272,11 +255,13 @@ std::optional<WorldMap> parse_image_map(const JsonReader& map, std::int64_t max_
   if (!image) return std::nullopt;
   const JsonReader resolution = image.require("resolution", "; give the size of a pixel in metres");
   const auto pixel = resolution.number(kLength);
-  const WorldFrame frame = parse_image_origin(image.find("origin"));
-  const auto raster = decode_image(image, max_cells);
-  if (raster && pixel) check_extent(resolution, raster->columns, raster->rows, *pixel);
-  if (!raster || map.fault_count() != before) return std::nullopt;
-  return WorldMap{draw(*raster, *pixel, unknown_is_free, map.work()), frame};
+  const RasterPose pose = parse_yaml_origin(image.find("origin")).value_or(RasterPose{});
+  const auto read = decode_image(image, max_cells, meanings_of_cells(unknown_is_free));
+  if (read && pixel) check_extent(resolution, read->raster.columns, read->raster.rows, *pixel);
+  if (!read || map.fault_count() != before) return std::nullopt;
+  WorldMap made = map_of(read->raster, *pixel, pose, unknown_is_free, map.work());
+  made.warnings = image_warnings(*read, unknown_is_free);
+  return made;
 }
 
 }  // namespace fleetplan::api

@@ -4,10 +4,12 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "api/json/json_reader.h"
 #include "api/request/limits.h"
+#include "api/request/map/raster_place.h"
 #include "api/request/shared_members.h"
 #include "core/map/occupancy_grid.h"
 #include "core/model/surroundings.h"
@@ -20,6 +22,8 @@ struct ParsedRobot;
 struct WorldMap {
   core::OccupancyGrid grid;
   WorldFrame frame;
+  RasterPose pose;                    // of the raster that it was made of
+  std::vector<std::string> warnings;  // about cells that may not mean what they are read as
 };
 
 /// Reads the member `map`, which has one of `rows`, `occupancy_grid`, `image` and `movingai`: a map of at
@@ -64,9 +68,11 @@ enum class ZoneRobots { of_request, also_others };
 
 /// Reads `zones` (may be absent), in the frame of the map; those with a fault are left out. Their robots are
 /// indices into `robots`; one that is not there has the first index that is none. A mask becomes several
-/// zones of one id, which follow each other. Without a map (null), masks are not read.
+/// zones of one id, which follow each other. Without a map (null), masks are not read. `warnings` gets those
+/// about masks.
 std::vector<core::Zone> parse_zones(const JsonReader& member, const WorldMap* map, const Limits& limits,
                                     const std::vector<ParsedRobot>& robots,
+                                    std::vector<std::string>& warnings,
                                     ZoneRobots named = ZoneRobots::of_request);
 
 }  // namespace fleetplan::api

@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <iterator>
-#include <map>
 #include <numbers>
 #include <numeric>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -19,11 +16,10 @@
 #include "api/json/errors.h"
 #include "api/request/fleet/parse_robots.h"
 #include "api/request/limits.h"
-#include "api/request/map/image/decode_image.h"
 #include "api/request/map/parse_map.h"
+#include "api/request/map/parse_mask.h"
 #include "api/request/shared_members.h"
 #include "core/geometry/position.h"
-#include "core/map/occupancy_grid.h"
 #include "core/model/surroundings.h"
 
 namespace fleetplan::api {
@@ -159,101 +155,6 @@ std::vector<core::Position> parse_polygon(const JsonReader& member, const WorldF
   return read;
 }
 
-/// Cells of a mask that have the same value, as a rectangle in the map frame.
-struct MaskPart {
-  std::int8_t percent = 0;
-  std::vector<core::Position> polygon;
-};
-
-constexpr std::int8_t kLeastOccupied = 65;  // percent
-constexpr std::int8_t kWhole = 100;
-/// How much larger than its cells a part of a mask is, metres. It is more than what decides whether a
-/// position is inside, so that the border of two parts is inside.
-constexpr double kOverlap = 2e-6;
-
-/// A run of cells from the first column to the last one, which is not included.
-struct Run {
-  int first = 0;
-  int last = 0;
-  std::int8_t percent = 0;
-  bool operator<(const Run& other) const {
-    return std::tie(first, last, percent) < std::tie(other.first, other.last, other.percent);
-  }
-};
-
-/// Returns the runs of one value in a row; runs of 0 are left out.
-template <class Value>
-std::vector<Run> runs_of_row(int columns, const Value& value) {
-  std::vector<Run> runs;
-  for (int column = 0; column < columns; ++column) {
-    const std::int8_t here = value(column);
-    if (here == 0) continue;
-    if (runs.empty() || runs.back().last != column || runs.back().percent != here) {
-      runs.push_back({column, column, here});
-    }
-    runs.back().last = column + 1;
-  }
-  return runs;
-}
-
-MaskPart part(const Run& run, int first_row, int last_row, double resolution) {
-  const core::Position low =
-      resolution * core::Position(run.first, first_row) - core::Position(kOverlap, kOverlap);
-  const core::Position high =
-      resolution * core::Position(run.last, last_row) + core::Position(kOverlap, kOverlap);
-  return {run.percent, {low, {high.x(), low.y()}, high, {low.x(), high.y()}}};
-}
-
-/// Joins equal runs of rows above each other. Ends soon after there are more than `most` parts.
-template <class Value>
-std::vector<MaskPart> parts_of(const Raster& raster, double resolution, std::size_t most, core::Work& work,
-                               const Value& value) {
-  std::vector<MaskPart> parts;
-  std::map<Run, int> open;  // open runs, with the rows where they begin
-  for (int row = 0; row <= raster.rows && parts.size() <= most; ++row) {
-    if (work.met_after(static_cast<std::size_t>(raster.columns))) break;
-    std::map<Run, int> next;
-    if (row < raster.rows) {
-      for (const Run& run :
-           runs_of_row(raster.columns, [&](int column) { return value(raster.at(column, row)); })) {
-        const auto begun = open.find(run);
-        next.emplace(run, begun == open.end() ? row : begun->second);
-        if (begun != open.end()) open.erase(begun);
-      }
-    }
-    for (const auto& [run, first_row] : open) parts.push_back(part(run, first_row, row, resolution));
-    open = std::move(next);
-  }
-  return parts;
-}
-
-/// Reads `mask`: an image of the size of the map, a pixel for each cell. With `by_percent`, the parts are the
-/// cells from 1 to 100 %; otherwise those that are occupied by the thresholds of map_server, as 100 %. Parts
-/// overlap by far less than a cell, so that nothing lies between them. Returns none when it has a fault. All
-/// parts of a request take their corners from the quota.
-std::vector<MaskPart> parse_mask(const JsonReader& member, const core::OccupancyGrid& map, bool by_percent,
-                                 Quota& corners) {
-  const std::size_t faults = member.fault_count();
-  const JsonReader image = member.object(kImageMembers);
-  if (!image) return {};
-  const std::optional<Raster> raster = decode_image(image, map.cell_count());
-  if (!raster) return {};
-  if (raster->columns != map.columns() || raster->rows != map.rows()) {
-    member.fault(fault::kWrongSize, "The mask has " + std::to_string(raster->columns) + " x " +
-                                        std::to_string(raster->rows) + " pixels, but the map has " +
-                                        std::to_string(map.columns()) + " x " + std::to_string(map.rows()) +
-                                        " cells; a mask has one pixel for each cell of the map.");
-  }
-  if (member.fault_count() != faults) return {};
-  constexpr std::size_t kCorners = 4;
-  std::vector<MaskPart> parts = parts_of(*raster, map.resolution(), corners.left() / kCorners, member.work(),
-                                         [&](std::int8_t percent) -> std::int8_t {
-                                           if (by_percent) return percent > 0 ? percent : std::int8_t{0};
-                                           return percent >= kLeastOccupied ? kWhole : std::int8_t{0};
-                                         });
-  return corners.take(kCorners * parts.size(), member) ? parts : std::vector<MaskPart>{};
-}
-
 using Type = core::Zone::Type;
 
 constexpr std::array<std::string_view, 3> kTypes{"blocked", "speed", "one_way"};  // see core::Zone::Type
@@ -269,6 +170,7 @@ class ZoneReader {
   ZoneReader(const WorldMap* map, const Limits& limits, const std::vector<ParsedRobot>& robots,
              ZoneRobots named)
       : map_(map),
+        limits_(limits),
         corners_(limits.max_zone_corners, "corners of zones"),
         names_(robots),
         not_there_(robots.size()),
@@ -294,6 +196,9 @@ class ZoneReader {
     return {zone};
   }
 
+  /// What masks may mean otherwise.
+  const MaskNotes& notes() const { return notes_; }
+
  private:
   void read_id(const JsonReader& member, core::Zone& zone) {
     zone.id = member.name().value_or("");
@@ -317,11 +222,12 @@ class ZoneReader {
     }
     if (map_ == nullptr) return {};
     std::vector<core::Zone> zones;
-    for (const MaskPart& part : parse_mask(mask, map_->grid, zone.type == Type::speed, corners_)) {
+    const MaskKind kind = zone.type == Type::speed ? MaskKind::speed : MaskKind::blocked;
+    for (const MaskPart& part : parse_mask(mask, *map_, kind, limits_, corners_, zone.id, notes_)) {
       if (mask.work().met_after(kWorkOfAPart)) return {};
       core::Zone& cells = zones.emplace_back(zone);
       cells.polygon = part.polygon;
-      if (zone.type == Type::speed) cells.linear_speed_share = part.percent / 100.0;
+      if (zone.type == Type::speed) cells.linear_speed_share = part.speed_share;
     }
     return zones;
   }
@@ -411,6 +317,8 @@ class ZoneReader {
   }
 
   const WorldMap* map_;
+  const Limits& limits_;
+  MaskNotes notes_;
   Quota corners_;
   RobotNames names_;
   std::size_t not_there_;
@@ -422,7 +330,8 @@ class ZoneReader {
 }  // namespace
 
 std::vector<core::Zone> parse_zones(const JsonReader& member, const WorldMap* map, const Limits& limits,
-                                    const std::vector<ParsedRobot>& robots, ZoneRobots named) {
+                                    const std::vector<ParsedRobot>& robots,
+                                    std::vector<std::string>& warnings, ZoneRobots named) {
   const JsonReader items = member.array();
   if (!items) return {};
   Quota quota(limits.max_zones, "zones");
@@ -436,6 +345,7 @@ std::vector<core::Zone> parse_zones(const JsonReader& member, const WorldMap* ma
     if (item.fault_count() != faults) continue;
     zones.insert(zones.end(), std::make_move_iterator(read.begin()), std::make_move_iterator(read.end()));
   }
+  reader.notes().tell(warnings);
   return zones;
 }
 

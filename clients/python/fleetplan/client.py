@@ -74,9 +74,9 @@ class Client:
     # ---------------------------------------------------------------- which robot does what
 
     def matrix(self, request: PlanRequest, robot: LoneRobot, from_: Sequence[TravelPose],
-               to: Sequence[TravelPose]) -> MatrixAnswer:
+               to: Sequence[TravelPose], *, format: Literal["numbers", "integers"] | None = None) -> MatrixAnswer:
         """How long the robot takes between these poses alone on the map, with the zones and options of the request."""
-        body = _given(_part(request, "map", "zones", "options"), {"from": from_}, robot=robot, to=to)
+        body = _given(_part(request, "map", "zones", "options"), {"from": from_}, robot=robot, to=to, format=format)
         return cast(MatrixAnswer, self._post("/v1/matrix", body, request))
 
     def assign(self, request: PlanRequest, tasks: Sequence[Task]) -> AssignAnswer:

@@ -74,18 +74,28 @@ class OccupancyGridMap(TypedDict):
     unknown: NotRequired[Literal["blocked", "free"]]
 
 
-class Mask(TypedDict, total=False):
+class PixelsGiven(TypedDict, total=False):
     pgm: str
     png: str
     mode: Literal["trinary", "scale", "raw"]
     negate: Literal[False, True, 0, 1]
     occupied_thresh: float
     free_thresh: float
-
-
-class Image(Mask, total=False):
-    resolution: Required[float]
+    release: Literal["jazzy", "humble"]
     origin: list[float]
+
+
+class Mask(PixelsGiven, total=False):
+    resolution: float
+
+
+class MaskOfSpeeds(Mask, total=False):
+    base: float
+    multiplier: float
+
+
+class Image(PixelsGiven, total=False):
+    resolution: Required[float]
     image: object
 
 
@@ -143,7 +153,7 @@ class BlockedMask(TypedDict):
 class SpeedMask(TypedDict):
     id: str
     type: Literal["speed"]
-    mask: Mask
+    mask: MaskOfSpeeds
     robots: NotRequired[list[str]]
 
 
@@ -734,6 +744,7 @@ class LoneRobot(TypedDict):
 class MatrixAnswer(TypedDict):
     seconds: list[list[float | None]]
     metres: list[list[float | None]]
+    unreachable: NotRequired[int]
     warnings: list[str]
 
 

@@ -80,6 +80,41 @@ TEST(MatrixEndpoint, HasNullWhereThereIsNoWay) {
   }
 }
 
+TEST(MatrixEndpoint, MayHaveWholeNumbers) {
+  const Json exact = answer_to(hall());
+  Json request = hall();
+  request["format"] = "integers";
+  const Json answer = answer_to(request);
+  const auto unreachable = answer["unreachable"].get<std::int64_t>();
+  std::int64_t seconds = 0;
+  std::int64_t metres = 0;
+  for (std::size_t row = 0; row < 2; ++row) {
+    for (std::size_t column = 0; column < 3; ++column) {
+      for (const char* member : {"seconds", "metres"}) {
+        const Json& number = answer[member][row][column];
+        EXPECT_TRUE(number.is_number_unsigned()) << number;
+        const Json& was = exact[member][row][column];
+        if (was.is_null()) {
+          EXPECT_EQ(number, unreachable);
+        } else {
+          EXPECT_GE(number.get<double>(), was.get<double>() - 1e-6);
+          EXPECT_LT(number.get<double>(), was.get<double>() + 1.0);
+        }
+      }
+    }
+    seconds += std::max(answer["seconds"][row][0].get<std::int64_t>(),
+                        answer["seconds"][row][1].get<std::int64_t>());
+    metres +=
+        std::max(answer["metres"][row][0].get<std::int64_t>(), answer["metres"][row][1].get<std::int64_t>());
+  }
+  EXPECT_EQ(unreachable, std::max(seconds, metres) + 1);
+  EXPECT_EQ(answer["seconds"][0][0], 3) << "exactly 3 s, which rounding leaves";
+  request["format"] = "numbers";
+  EXPECT_EQ(answer_to(request), exact);
+  request["format"] = "csv";
+  EXPECT_THAT(faults(request), ElementsAre(Pair("/format", "unknown_value")));
+}
+
 TEST(MatrixEndpoint, AgreesWithThePlanOfTheRobotAlone) {
   const Json answer = answer_to(hall());
   const Json plan = plan_alone(hall(), 0, 1);
@@ -156,7 +191,7 @@ TEST(MatrixEndpoint, TellsPosesThatTheRobotCannotHave) {
   EXPECT_THAT(faults(request),
               ElementsAre(Pair("/from/2", "start_in_obstacle"), Pair("/to/3", "goal_in_obstacle"),
                           Pair("/to/4", "goal_in_obstacle")));
-  EXPECT_THAT(detail(request), HasSubstr("Move it or make the robot smaller"));
+  EXPECT_THAT(detail(request), HasSubstr("Move it, or"));
 }
 
 TEST(MatrixEndpoint, TellsEachFaultWithItsPlace) {

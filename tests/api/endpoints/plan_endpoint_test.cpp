@@ -181,6 +181,19 @@ TEST(PlanEndpoint, ReturnsTheReasonOfAnUnplannedRobot) {
   EXPECT_EQ(answer["unplanned"][0]["reason"], "goal_unreachable");
 }
 
+TEST(PlanEndpoint, TellsWhereAWayIsTooNarrow) {
+  Json request = Json::parse(R"({
+    "map": {"rows": ["....#....", ".........", "....#...."], "origin": {"x": 100, "y": -7}},
+    "robots": [{"id": "a", "radius": 0.6, "linear_speed": 1, "angular_speed": 1,
+                "start": {"x": 101, "y": -6}, "goal": {"x": 108, "y": -6}}]})");
+  const std::string detail = planned(request)["unplanned"][0]["detail"];
+  EXPECT_THAT(detail, HasSubstr("It needs 1.2 m; the narrowest place of the widest way there is "));
+  EXPECT_THAT(detail, testing::AnyOf(HasSubstr("0.999 m wide"), HasSubstr("1 m wide")));
+  EXPECT_THAT(detail, testing::AnyOf(HasSubstr("at (104, -5.5)"), HasSubstr("at (105, -5.5)")));
+  request["map"]["rows"] = {".........", ".........", "....#...."};  // as wide as it would have to be
+  EXPECT_EQ(planned(request)["status"], "solved");
+}
+
 TEST(PlanEndpoint, ReturnsTimingsWhoseTotalIsAtLeastTheirSum) {
   RequestContext late = context();
   TestTurn turn;

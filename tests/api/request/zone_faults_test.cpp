@@ -195,7 +195,26 @@ INSTANTIATE_TEST_SUITE_P(
                            make_mask(r);
                            the_zone(r)["mask"]["pgm"] = support::base64("P2\n2 1\n255\n0 255\n");
                          },
-                         "/zones/0/mask", "wrong_size", "2 x 1 pixels, but the map has 9 x 4 cells"},
+                         "/zones/0/mask", "wrong_size",
+                         "the map has 9 x 4 cells; give the resolution and the origin"},
+                    Case{"WithABaseButBlocked",
+                         [](Json& r) {
+                           make_mask(r);
+                           the_zone(r)["mask"]["base"] = 100;
+                         },
+                         "/zones/0/mask/base", "unknown_key", "of the type speed only"},
+                    Case{"TurnedByAnyAngle",
+                         [](Json& r) {
+                           make_mask(r);
+                           the_zone(r)["mask"]["origin"] = {0, 0, 1};
+                         },
+                         "/zones/0/mask/origin/2", "out_of_range", "a multiple of pi / 2"},
+                    Case{"TooLarge",
+                         [](Json& r) {
+                           make_mask(r);
+                           the_zone(r)["mask"]["resolution"] = 1e6;
+                         },
+                         "/zones/0/mask", "out_of_range", "at most 1e+06 m in each direction"},
                     Case{"NotAnImage", [](Json& r) { make_mask(r), the_zone(r)["mask"]["pgm"] = "UDU="; },
                          "/zones/0/mask/pgm", "bad_image", ""},
                     Case{"WithASpeed", [](Json& r) { make_speed(r), make_mask(r); }, "/zones/0/linear_speed",
@@ -219,7 +238,7 @@ TEST(Zones, LimitEachRobotToThePercentageOfASpeedMask) {
   Json request = request_with_zone();
   make_mask(request);
   the_zone(request)["type"] = "speed";
-  the_zone(request)["mask"]["mode"] = "raw";
+  the_zone(request)["mask"].update({{"mode", "raw"}, {"base", 0}, {"multiplier", 1}});
   robot(request, 1)["linear_speed"] = 2.0;
   const auto read = parse_request(request.dump(), {}, unbounded_work());
   ASSERT_TRUE(read);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/core/support/planning.h"
 
 namespace fleetplan::core {
@@ -71,6 +73,41 @@ TEST(Enclosure, EndsWhenTheStopConditionIsMet) {
   EXPECT_EQ(Enclosure(p.instance, 0, {}, met).find(kMany).answer, Answer::open) << "little work";
   EXPECT_EQ(Enclosure(p.instance, 0, staying, met).find(kMany).answer, Answer::unknown);
   EXPECT_EQ(Enclosure(p.instance, 0, staying, p.never).find(kMany).answer, Answer::open);
+}
+
+/// Rooms with doorways of several widths: the narrowest place of the widest way is in the widest doorway.
+TEST(Enclosure, FindsTheNarrowestPlaceOfTheWidestWay) {
+  for (const double radius : {0.55, 0.8, 1.4}) {
+    const Planning p(support::ascii_map({"............#......",  //
+                                         "............#......",  //
+                                         "...................",  // 1 m wide
+                                         "............#......",  //
+                                         "............#......",  //
+                                         "............#......",  //
+                                         "..................."}),
+                     {robot_at(2, 4).to(16, 4).radius(radius)});
+    std::int64_t left = kMany;
+    const auto narrow = Enclosure(p.instance, 0, {}, p.never).narrowest_place(kMany, left);
+    ASSERT_TRUE(narrow) << radius;
+    EXPECT_NEAR(narrow->width, 1.0, 0.002);
+    EXPECT_NEAR(narrow->needed, 2.0 * radius, 1e-4);
+    EXPECT_NEAR(narrow->place.x(), 12.5, 0.51);
+    EXPECT_TRUE(std::abs(narrow->place.y() - 4.5) < 0.51 || std::abs(narrow->place.y() - 0.5) < 0.51)
+        << narrow->place.transpose();
+    EXPECT_LT(left, kMany);
+  }
+}
+
+TEST(Enclosure, FindsNoNarrowPlaceOfAWayThatIsOpenOrWalledUp) {
+  std::int64_t left = kMany;
+  const Planning open(rooms(), {robot_at(1, 1).to(8, 1).radius(0.4)});
+  EXPECT_FALSE(Enclosure(open.instance, 0, {}, open.never).narrowest_place(kMany, left));
+  const Planning walled(support::ascii_map({"....#....", "....#....", "....#...."}),
+                        {robot_at(1, 1).to(8, 1).radius(0.4)});
+  EXPECT_FALSE(Enclosure(walled.instance, 0, {}, walled.never).narrowest_place(kMany, left));
+  left = 3;
+  const Planning narrow(rooms(), {robot_at(1, 1).to(8, 1).radius(0.6)});
+  EXPECT_FALSE(Enclosure(narrow.instance, 0, {}, narrow.never).narrowest_place(kMany, left));
 }
 
 TEST(Enclosure, MeasuresTheWidestWay) {

@@ -72,6 +72,7 @@ function description() {
     origin: [ORIGIN.x, ORIGIN.y, 0],
     negate: oneOf([0, 1, false, true]),
     mode: oneOf(["trinary", "scale", "raw"]),
+    ...oneOf([{}, { release: "jazzy" }, { release: "humble" }]),
     ...thresholds,
   };
 }
@@ -127,6 +128,27 @@ function makeOpaque(rows, channels, opaque) {
   for (const row of rows)
     for (let at = channels - 1; at < row.length; at += channels) if (random(4) > 0) row[at] = opaque;
 }
+
+/** An origin with which a turned map of the same size lies where ORIGIN has it: only halves of a turn keep its size. */
+const halfTurned = (yaw) => [ORIGIN.x + COLUMNS * SIZE, ORIGIN.y + ROWS * SIZE, yaw];
+
+test("maps that are turned have the same cells on the page and in the service", async () => {
+  for (const yaw of [Math.PI, -3.1416, 3 * Math.PI]) {
+    const map = imageMap({ pgm: Buffer.from(rawPgm(rowsOf(1, 255), 255)).toString("base64") });
+    map.image.origin = halfTurned(yaw);
+    await assertAgree(map);
+    const [x, y] = halfTurned(yaw);
+    const orientation = { x: 0, y: 0, z: Math.sin(yaw / 2), w: Math.cos(yaw / 2) };
+    const info = {
+      resolution: SIZE,
+      width: COLUMNS,
+      height: ROWS,
+      origin: { position: { x, y, z: 0 }, orientation },
+    };
+    const data = Array.from({ length: COLUMNS * ROWS }, () => random(102) - 1);
+    await assertAgree({ occupancy_grid: { info, data } });
+  }
+});
 
 test("occupancy grids and MovingAI maps have the same cells on the page and in the service", async () => {
   for (let round = 0; round < 10; round += 1) {

@@ -49,7 +49,7 @@ test("a map.yaml is read, with trinary as the default mode", () => {
     image: "lab.pgm",
     resolution: 0.05,
     origin: { x: -10.1, y: -5 },
-    yaw: 0,
+    quarterTurns: 0,
     negate: false,
     occupiedThresh: 0.65,
     freeThresh: 0.196,
@@ -60,10 +60,29 @@ test("a map.yaml is read, with trinary as the default mode", () => {
   assert.equal(readRosYaml(`${YAML}mode: scale\n`).mode, "scale");
 });
 
-test("a rotated map is imported unrotated, with a warning", () => {
+test("a map that is turned by quarters is turned, about its lower-left corner", () => {
+  const of = (yaw) => {
+    const described = readRosYaml(YAML.replace("0.0]", `${yaw}]`).replace("0.050000", "1"));
+    const values = Uint16Array.from([0, 254, 254, 205, 254, 254]); // two rows
+    return [described, classifyPixels(described, { width: 3, height: 2, channels: 1, largest: 255, values })];
+  };
+  const expected = new Map([
+    [1.5708, [["..", "..", "#?"], { x: -12.1, y: -5 }]],
+    [-3.1416, [["..?", "..#"], { x: -13.1, y: -7 }]],
+    [4.7124, [["?#", "..", ".."], { x: -10.1, y: -8 }]],
+    [1e-9, [["#..", "?.."], { x: -10.1, y: -5 }]],
+    [6.2832, [["#..", "?.."], { x: -10.1, y: -5 }]],
+  ]);
+  for (const [yaw, [lines, origin]] of expected) {
+    const [described, made] = of(yaw);
+    assert.deepEqual([drawn(made), made.origin, described.warnings], [lines, origin, []], `${yaw}`);
+  }
+});
+
+test("a map that is turned by another angle is imported unturned, with a warning", () => {
   const described = readRosYaml(YAML.replace("0.0]", "0.5]"));
-  assert.equal(described.yaw, 0.5);
-  assert.match(described.warnings.join(), /rotates the map by 0.5 rad.*ignored/);
+  assert.equal(described.quarterTurns, 0);
+  assert.match(described.warnings.join(), /turns the map by 0.5 rad.*no quarter turn.*ignored/);
 });
 
 test("missing thresholds default to map_server's, with a warning", () => {
@@ -108,15 +127,9 @@ test("pixels are free, occupied or unknown as in map_server", () => {
   ]);
 });
 
-test("a pixel that is exactly at a threshold is unknown", () => {
-  const halves = YAML.replace("0.65", "0.75").replace("0.196", "0.25");
-  assert.deepEqual(classify(halves, [0, 1, 2, 3, 4], { largest: 4 }), [
-    OCCUPIED,
-    UNKNOWN,
-    UNKNOWN,
-    UNKNOWN,
-    FREE,
-  ]);
+test("a pixel that is exactly at a threshold is occupied or free", () => {
+  const edges = YAML.replace("0.65", "1.0").replace("0.196", "0.0");
+  assert.deepEqual(classify(edges, [255, 0, 128]), [FREE, OCCUPIED, UNKNOWN]);
 });
 
 test("gray levels are relative to the maximum of the image", () => {
@@ -124,9 +137,9 @@ test("gray levels are relative to the maximum of the image", () => {
 });
 
 test("in scale mode, shades between the thresholds are percentages, and pixels that are not opaque unknown", () => {
-  const scale = `${YAML.replace("0.65", "0.9").replace("0.196", "0.1")}mode: scale`;
-  // Of grays to 100: (100 - gray) / 100, from 0.1 to 0.9 in percent: 38 gives 65, 39 gives 63.75; 70 gives 25, 69 26.25
-  assert.deepEqual(classify(scale, [0, 38, 39, 69, 70, 100], { largest: 100 }), [
+  const scale = `${YAML.replace("0.65", "1.0").replace("0.196", "0.0")}mode: scale`;
+  // 100 (1 - gray / 255), rounded: 90 gives 65, 91 gives 64; 190 gives 25, 189 gives 26
+  assert.deepEqual(classify(scale, [0, 90, 91, 189, 190, 255]), [
     OCCUPIED,
     OCCUPIED,
     UNKNOWN,
@@ -143,23 +156,19 @@ test("in scale mode, shades between the thresholds are percentages, and pixels t
   ]);
 });
 
-test("in trinary mode, alpha counts as a fourth colour", () => {
-  // 1 - (3 * 40 + 255) / 4 / 255 is 0.632; of black 0.75
-  assert.deepEqual(classify(YAML, [0, 255, 40, 255, 255, 255, 0, 0], { channels: 2 }), [
-    OCCUPIED,
-    UNKNOWN,
-    FREE,
-    OCCUPIED,
-  ]);
-  assert.deepEqual(classify(YAML, [40, 40, 40, 255], { channels: 4 }), [UNKNOWN]);
+test("pixels that are not opaque are unknown in every mode", () => {
+  for (const mode of ["trinary", "scale", "raw"]) {
+    const cells = classify(`${YAML}mode: ${mode}`, [0, 0, 0, 254, 255, 128], { channels: 2 });
+    assert.deepEqual(cells, [UNKNOWN, UNKNOWN, UNKNOWN], mode);
+  }
 });
 
-test("the shade of a colour is the mean of its channels", () => {
-  assert.deepEqual(classify(YAML, [0, 0, 255, 0, 30, 255, 200, 210, 255], { channels: 3 }), [
-    OCCUPIED,
-    UNKNOWN,
-    FREE,
-  ]);
+test("the shade of a colour is its luminance, and 205 is unknown in every form", () => {
+  // 29, 150 and 225 of 255
+  const colours = [0, 0, 255, 0, 255, 0, 255, 255, 0];
+  assert.deepEqual(classify(YAML, colours, { channels: 3 }), [OCCUPIED, UNKNOWN, FREE]);
+  for (const pixel of [[205], [205, 255], [205, 205, 205], [205, 205, 205, 255]])
+    assert.deepEqual(classify(YAML, pixel, { channels: pixel.length }), [UNKNOWN], `${pixel}`);
 });
 
 test("in raw mode, the gray level is the occupancy in percent, whatever the thresholds", () => {

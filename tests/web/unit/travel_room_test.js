@@ -43,7 +43,7 @@ test("zones that are blocked for the robot are walls", async () => {
 test("a mask blocks the cells that are occupied on it", async () => {
   const mask = {};
   const percents = Uint8Array.from({ length: 18 }, (_, at) => (at % 6 === 5 ? 100 : at % 6 === 4 ? 20 : 0));
-  rememberMask(mask, { columns: 6, rows: 3, percents });
+  rememberMask(mask, { columns: 6, rows: 3, percents, isFramed: false });
   const request = { map: { rows: ROWS }, zones: [{ id: "z", type: "blocked", mask }] };
   assert.deepEqual(await placesOf(request, 0.5), ["ooooo.", "o..oo.", "ooooo."]);
 });

@@ -37,6 +37,28 @@ test("a mask lies on the cells of the map, with its name in the middle of what i
   assert.deepEqual(zone.bounds, { left: 0, bottom: 0, right: 6, top: 4 });
 });
 
+test("a mask in a frame of its own lies there, turned and of its own size", async () => {
+  const mask = { pgm: base64(pgm([[0, 254, 254]])), resolution: 0.5, origin: [3, 1, Math.PI / 2] };
+  const request = { map: { rows: ["....", "...."] }, zones: [maskZone("blocked", mask)] };
+  await prepareMasks(request);
+  assert.deepEqual([...maskOf(mask).percents], [0, 0, 100], "from the top");
+  const [zone] = readScene(request).zones;
+  assert.deepEqual(zone.bounds, { left: 2.5, bottom: 1, right: 3, top: 2.5 });
+  assert.deepEqual(zone.middle, { x: 2.75, y: 1.25 });
+});
+
+test("a mask of speeds limits to base and multiplier", async () => {
+  const limitsOf = async (given) => {
+    const mask = { pgm: base64(pgm([[191]])), mode: "scale", occupied_thresh: 1, free_thresh: 0, ...given };
+    await prepareMasks({ map: { rows: ["."] }, zones: [maskZone("speed", mask)] });
+    const { percents, limits } = maskOf(mask);
+    return limits[percents[0]];
+  };
+  assert.equal(await limitsOf({}), 75);
+  assert.equal(await limitsOf({ base: 0, multiplier: 1 }), 25);
+  assert.equal(await limitsOf({ base: 200 }), 0);
+});
+
 test("masks of another size, and those that cannot be read, are not drawn", async () => {
   const small = { pgm: base64(pgm([[0]])) };
   const broken = { pgm: "not base64!" };

@@ -91,13 +91,40 @@ Result<Bytes, std::string> decode_base64(std::string_view text, core::Work& work
 
 namespace {
 
-std::int8_t by_thresholds(const ShadeRule& rule, double occupied) {
+std::int8_t by_thresholds_of_humble(const ShadeRule& rule, double occupied) {
   if (occupied > rule.occupied_thresh) return kFullOccupancy;
   if (occupied < rule.free_thresh) return 0;
   if (rule.mode == ShadeMode::trinary) return kUnknownOccupancy;
   const double range = rule.occupied_thresh - rule.free_thresh;
   if (range <= 0.0) return kUnknownOccupancy;  // a single shade is neither; map_server divides by 0
   return static_cast<std::int8_t>(std::rint((occupied - rule.free_thresh) / range * 100.0));
+}
+
+/// The same with Jazzy, in single precision, as map_server computes.
+std::int8_t by_thresholds(const ShadeRule& rule, float occupied) {
+  const auto least_occupied = static_cast<float>(rule.occupied_thresh);
+  const auto most_free = static_cast<float>(rule.free_thresh);
+  if (occupied <= most_free) return 0;
+  if (occupied >= least_occupied) return kFullOccupancy;
+  if (rule.mode == ShadeMode::trinary) return kUnknownOccupancy;
+  const auto range = static_cast<float>(rule.occupied_thresh - rule.free_thresh);
+  const float percent = std::round((occupied - most_free) / range * 100.0F);
+  return static_cast<std::int8_t>(std::min(percent, static_cast<float>(kFullOccupancy)));
+}
+
+/// Returns the gray of a pixel, 0 to 255, as GraphicsMagick has it with 16 bits for each channel: the luma of
+/// Rec. 601 in 16 bits, rounded, of which the upper 8 bits are taken.
+int gray_of(std::span<const std::uint16_t> channels, int largest) {
+  constexpr std::uint64_t kLargest16 = 65535;
+  constexpr std::uint64_t kStep = 257;  // of 8 bits in 16
+  const auto wide = [&](std::uint16_t channel) {
+    const auto most = static_cast<std::uint64_t>(largest);
+    return (2 * kLargest16 * channel + most) / (2 * most);
+  };
+  if (channels.size() < 3) return static_cast<int>(wide(channels[0]) / kStep);
+  const std::uint64_t luma =
+      (299 * wide(channels[0]) + 587 * wide(channels[1]) + 114 * wide(channels[2]) + 500) / 1000;
+  return static_cast<int>(luma / kStep);
 }
 
 }  // namespace
@@ -116,6 +143,17 @@ OccupancyOfPixels::OccupancyOfPixels(const ShadeRule& rule, const ImageHeader& i
 }
 
 std::int8_t OccupancyOfPixels::computed(std::span<const std::uint16_t> channels) const {
+  if (rule_.release == Release::humble) return computed_as_humble(channels);
+  if (has_alpha_ && channels.back() < largest_) return kUnknownOccupancy;
+  const int gray = gray_of(channels, static_cast<int>(largest_));
+  if (rule_.mode == ShadeMode::raw) {
+    return gray <= kFullOccupancy ? static_cast<std::int8_t>(gray) : kUnknownOccupancy;
+  }
+  const float shade = static_cast<float>(gray) / 255.0F;
+  return by_thresholds(rule_, rule_.negate ? shade : 1.0F - shade);
+}
+
+std::int8_t OccupancyOfPixels::computed_as_humble(std::span<const std::uint16_t> channels) const {
   const std::size_t colours = channels.size() - (has_alpha_ ? 1 : 0);
   double sum = 0.0;  // sum of red, green and blue
   for (std::size_t index = 0; index < colours; ++index) sum += channels[index];
@@ -126,7 +164,7 @@ std::int8_t OccupancyOfPixels::computed(std::span<const std::uint16_t> channels)
     if (rule_.mode == ShadeMode::trinary) mean = (sum + channels.back()) / 4.0;  // alpha counts as a colour
   }
   const double shade = mean / largest_;
-  if (rule_.mode != ShadeMode::raw) return by_thresholds(rule_, rule_.negate ? shade : 1.0 - shade);
+  if (rule_.mode != ShadeMode::raw) return by_thresholds_of_humble(rule_, rule_.negate ? shade : 1.0 - shade);
   const double percent = std::round(shade * 255.0);
   return percent <= kFullOccupancy ? static_cast<std::int8_t>(percent) : kUnknownOccupancy;
 }
@@ -134,6 +172,7 @@ std::int8_t OccupancyOfPixels::computed(std::span<const std::uint16_t> channels)
 namespace {
 
 constexpr std::array<std::string_view, 3> kModes{"trinary", "scale", "raw"};
+constexpr std::array<std::string_view, 2> kReleases{"jazzy", "humble"};  // see Release
 constexpr Range kShare{0.0, 1.0, "of full occupancy"};
 
 /// Reads `negate`. map_server accepts numbers and booleans.
@@ -146,6 +185,9 @@ std::optional<ShadeRule> parse_rule(const JsonReader& image) {
   const std::size_t before = image.fault_count();
   ShadeRule rule;
   if (const auto mode = image.find("mode").word(kModes)) rule.mode = static_cast<ShadeMode>(*mode);
+  if (const auto release = image.find("release").word(kReleases)) {
+    rule.release = static_cast<Release>(*release);
+  }
   rule.negate = parse_negate(image.find("negate")).value_or(false);
   const JsonReader occupied = image.find("occupied_thresh");
   const JsonReader free = image.find("free_thresh");
@@ -174,10 +216,48 @@ JsonReader parse_file(const JsonReader& image) {
   return {};
 }
 
-/// Decodes rows from the top until `work` is met.
-Result<Raster, std::string> decode(ImageReader& reader, const ShadeRule& rule, core::Work& work) {
+/// Counts the pixels whose meaning a reader of the image should hear of.
+class Notable {
+ public:
+  Notable(const ShadeRule& rule, const ImageHeader& header, const Meanings* meanings)
+      : meanings_(meanings), looks_for_gray_(rule.mode == ShadeMode::trinary && !rule.negate) {
+    ShadeRule humble = rule;
+    humble.release = Release::humble;
+    if (meanings != nullptr) before_.emplace(humble, header);
+    looks_for_gray_ = looks_for_gray_ && header.largest % 255 == 0;
+    unknown_gray_ = static_cast<std::uint16_t>(kUnknownGray * (header.largest / 255));
+  }
+
+  void look_at(std::span<const std::uint16_t> channels, std::int8_t percent) {
+    if (before_ && meaning(percent) != meaning(before_->of(channels))) ++changed_;
+    if (looks_for_gray_ && percent == 0 && channels[0] == unknown_gray_) {
+      if (channels.size() < 3 || (channels[1] == channels[0] && channels[2] == channels[0])) ++free_unknown_;
+    }
+  }
+
+  std::size_t changed() const { return changed_; }
+  std::size_t free_unknown() const { return free_unknown_; }
+
+ private:
+  std::int8_t meaning(std::int8_t percent) const {
+    return (*meanings_)[static_cast<std::size_t>(percent - kUnknownOccupancy)];
+  }
+
+  const Meanings* meanings_;
+  std::optional<OccupancyOfPixels> before_;
+  bool looks_for_gray_;
+  std::uint16_t unknown_gray_ = 0;
+  std::size_t changed_ = 0;
+  std::size_t free_unknown_ = 0;
+};
+
+/// Decodes rows from the top until `work` is met. `meanings` of the pixels are compared with those that they
+/// have with Humble; null: they are not.
+Result<DecodedImage, std::string> decode(ImageReader& reader, const ShadeRule& rule, const Meanings* meanings,
+                                         core::Work& work) {
   const ImageHeader& header = reader.header();
   const OccupancyOfPixels occupancy(rule, header);
+  Notable notable(rule, header, meanings);
   const auto columns = static_cast<std::size_t>(header.columns);
   const auto channels = static_cast<std::size_t>(header.channels);
   Raster raster{header.columns, header.rows,
@@ -188,15 +268,27 @@ Result<Raster, std::string> decode(ImageReader& reader, const ShadeRule& rule, c
     if (!pixels) return pixels.failure();
     line -= columns;
     for (std::size_t column = 0; column < columns; ++column) {
-      line[column] = occupancy.of(pixels->subspan(column * channels, channels));
+      const auto pixel = pixels->subspan(column * channels, channels);
+      line[column] = occupancy.of(pixel);
+      notable.look_at(pixel, line[column]);
     }
   }
-  return raster;
+  return DecodedImage{std::move(raster), rule, notable.changed(), notable.free_unknown()};
 }
 
 }  // namespace
 
-std::optional<Raster> decode_image(const JsonReader& image, std::int64_t most) {
+std::string changed_pixels_warning(const std::string& image, std::size_t pixels) {
+  return "Of " + image + ", " + std::to_string(pixels) + (pixels == 1 ? " pixel means" : " pixels mean") +
+         " something else than with map_server of ROS 2 Humble, as it was read before: colours count by "
+         "their "
+         "luminance, thresholds themselves are occupied or free, and pixels that are not opaque are unknown, "
+         "as in Jazzy. Give \"release\": \"humble\" for the old reading, or \"jazzy\" to confirm the new "
+         "one.";
+}
+
+std::optional<DecodedImage> decode_image(const JsonReader& image, std::int64_t most,
+                                         const Meanings& meanings) {
   const auto rule = parse_rule(image);
   const JsonReader file = parse_file(image);
   if (!rule || !file) return std::nullopt;
@@ -215,10 +307,10 @@ std::optional<Raster> decode_image(const JsonReader& image, std::int64_t most) {
     file.fault(fault::kOutOfRange, "The image is too large. " + opened.failure().detail);
     return std::nullopt;
   }
-  auto raster = decode(**opened, *rule, work);
-  if (!raster) return damaged(raster.failure());
+  auto decoded = decode(**opened, *rule, image.find("release") ? nullptr : &meanings, work);
+  if (!decoded) return damaged(decoded.failure());
   if (work.met()) return std::nullopt;
-  return std::move(*raster);
+  return std::move(*decoded);
 }
 
 }  // namespace fleetplan::api

@@ -1,7 +1,7 @@
 #pragma once
 
 // Images of maps, from the text of the request to the raster: reads their pixels row by row, and makes
-// occupancy of them as map_server of ROS does (nav2_map_server/src/map_io.cpp).
+// occupancy of them as map_server of ROS 2 does (nav2_map_server/src/map_io.cpp).
 
 #include <array>
 #include <cstddef>
@@ -88,17 +88,25 @@ using Bytes = std::vector<std::uint8_t>;
 /// after "it ". When `work` is met, returns what was decoded so far.
 Result<Bytes, std::string> decode_base64(std::string_view text, core::Work& work);
 
-inline constexpr std::int8_t kFullOccupancy = 100;
+inline constexpr std::int8_t kFullOccupancy = 100;  // percent
 
 enum class ShadeMode { trinary, scale, raw };
+
+/// The release of ROS 2 whose map_server reads an image: that of Jazzy (from 1.3.7), Kilted and Lyrical, or
+/// that of Humble and those before.
+enum class Release { jazzy, humble };
 
 /// The members of a map.yaml that say what a shade means.
 struct ShadeRule {
   ShadeMode mode = ShadeMode::trinary;
   bool negate = false;            // white is occupied
-  double occupied_thresh = 0.65;  // occupied above; 0 to 1
-  double free_thresh = 0.196;     // free below; at most occupied_thresh
+  double occupied_thresh = 0.65;  // occupied from here on, with Humble above; 0 to 1
+  double free_thresh = 0.196;     // free up to here, with Humble below; at most occupied_thresh
+  Release release = Release::jazzy;
 };
+
+/// The gray with which map_saver writes unknown cells, of 255.
+inline constexpr int kUnknownGray = 205;
 
 /// The occupancy of pixels of one image: 0 to 100 percent, or kUnknownOccupancy.
 class OccupancyOfPixels {
@@ -112,6 +120,7 @@ class OccupancyOfPixels {
 
  private:
   std::int8_t computed(std::span<const std::uint16_t> channels) const;
+  std::int8_t computed_as_humble(std::span<const std::uint16_t> channels) const;
 
   ShadeRule rule_;
   double largest_;
@@ -119,14 +128,26 @@ class OccupancyOfPixels {
   std::vector<std::int8_t> known_;  // occupancy of each gray, if keeping it saves time
 };
 
-/// The members of an image that decode_image reads.
-inline constexpr std::array<std::string_view, 6> kImageMembers{
-    "pgm", "png", "mode", "negate", "occupied_thresh", "free_thresh"};
+/// What the percentages from kUnknownOccupancy to kFullOccupancy mean to the reader of an image, by
+/// percentage - kUnknownOccupancy.
+using Meanings = std::array<std::int8_t, kFullOccupancy - kUnknownOccupancy + 1>;
 
-/// Returns the occupancy that map_server of ROS publishes for an image: `pgm` or `png`, in base64, and the
-/// members of its map.yaml that give shades a meaning (see ShadeRule). The image has at most `most` pixels,
-/// which is checked before they are decoded. Returns none when it has a fault, or when the reading of the
-/// document is stopped. Does not look at other members.
-std::optional<Raster> decode_image(const JsonReader& image, std::int64_t most);
+struct DecodedImage {
+  Raster raster;
+  ShadeRule rule;
+  /// Pixels that mean something else with Humble, as long as the image names no release.
+  std::size_t changed = 0;
+  std::size_t free_unknown = 0;  // pixels of kUnknownGray that are free in the mode trinary
+};
+
+/// Returns the occupancy that map_server of ROS publishes for an image: `pgm` or `png`, in base64, the
+/// members of its map.yaml that give shades a meaning (see ShadeRule), and `release`. The image has at most
+/// `most` pixels, which is checked before they are decoded. Returns none when it has a fault, or when the
+/// reading of the document is stopped. Does not look at other members.
+std::optional<DecodedImage> decode_image(const JsonReader& image, std::int64_t most,
+                                         const Meanings& meanings);
+
+/// Returns a warning about pixels that mean something else with Humble. `image` names it.
+std::string changed_pixels_warning(const std::string& image, std::size_t pixels);
 
 }  // namespace fleetplan::api

@@ -90,9 +90,16 @@ int of_pixel(const ShadeRule& rule, const std::vector<int>& channels) {
   return occupancy.of(wide);
 }
 
+ShadeRule with_humble(ShadeRule rule = {}) {
+  rule.release = Release::humble;
+  return rule;
+}
+
 TEST(ShadeRule, TrinaryHasFreeOccupiedAndUnknown) {
   // 1 - gray / 255 against 0.65 and 0.196: 89 gives 0.651, 90 gives 0.647; 205 gives 0.1961, 206 gives 0.192
-  EXPECT_THAT(of_grays({}, {0, 89, 90, 205, 206, 255}), ElementsAre(100, 100, kUnknown, kUnknown, 0, 0));
+  for (const ShadeRule& rule : {ShadeRule{}, with_humble()}) {
+    EXPECT_THAT(of_grays(rule, {0, 89, 90, 205, 206, 255}), ElementsAre(100, 100, kUnknown, kUnknown, 0, 0));
+  }
 }
 
 TEST(ShadeRule, NegateMakesWhiteOccupied) {
@@ -101,59 +108,95 @@ TEST(ShadeRule, NegateMakesWhiteOccupied) {
   EXPECT_THAT(of_grays(rule, {0, 49, 50, 165, 166, 255}), ElementsAre(0, 0, kUnknown, kUnknown, 100, 100));
 }
 
-TEST(ShadeRule, ThresholdsThemselvesAreUnknown) {
-  const ShadeRule rule{ShadeMode::trinary, false, 0.75, 0.25};
-  EXPECT_THAT(of_grays(rule, {0, 1, 2, 3, 4}, 4), ElementsAre(100, kUnknown, kUnknown, kUnknown, 0));
+TEST(ShadeRule, ThresholdsThemselvesAreOccupiedAndFree) {
+  const ShadeRule rule{ShadeMode::trinary, false, 1.0, 0.0};
+  EXPECT_THAT(of_grays(rule, {255, 0, 128}), ElementsAre(0, 100, kUnknown));
+  EXPECT_THAT(of_grays(with_humble(rule), {255, 0, 128}), ElementsAre(kUnknown, kUnknown, kUnknown));
+  const ShadeRule equal{ShadeMode::scale, false, 1.0, 1.0};  // what is both is free
+  EXPECT_THAT(of_grays(equal, {0, 1}), ElementsAre(0, 0));
 }
 
 TEST(ShadeRule, RoundsAsMapServer) {
-  // 1 - 0.8 is 0.19999999999999996, less than 0.2
+  // 1 - 204 / 255 in single precision is 0.19999999, below 0.2 in single precision
+  EXPECT_THAT(of_grays({ShadeMode::trinary, false, 0.2, 0.1}, {204}), ElementsAre(kUnknown));
   EXPECT_THAT(of_grays({ShadeMode::trinary, false, 0.65, 0.2}, {204}), ElementsAre(0));
+  EXPECT_THAT(of_grays(with_humble({ShadeMode::trinary, false, 0.65, 0.2}), {204}), ElementsAre(0));
 }
 
 TEST(ShadeRule, ScaleHasPercentBetweenTheThresholds) {
-  const ShadeRule rule{ShadeMode::scale, false, 0.9, 0.1};
-  // gray of 100: occupied (100 - gray) / 100; percent (occupied - 0.1) / 0.8 x 100, to the nearest even
-  // number
-  EXPECT_THAT(of_grays(rule, {0, 9, 11, 50, 70, 89, 91, 100}, 100),
+  const ShadeRule rule{ShadeMode::scale, false, 1.0, 0.0};
+  // 100 x (1 - gray / 255), rounded: 191 gives 25.1, 128 gives 49.8, 254 gives 0.4
+  EXPECT_THAT(of_grays(rule, {0, 128, 191, 254, 255}), ElementsAre(100, 50, 25, 0, 0));
+  // (1 - gray / 255 - 0.2) / 0.4 x 100: gray 102 is 0.6, 153 is 0.4, 178 is 0.302, 204 is 0.2
+  EXPECT_THAT(of_grays({ShadeMode::scale, false, 0.6, 0.2}, {101, 103, 153, 178, 204, 255}),
+              ElementsAre(100, 99, 50, 25, 0, 0));
+  const ShadeRule old{ShadeMode::scale, false, 0.9, 0.1};
+  EXPECT_THAT(of_grays(with_humble(old), {0, 9, 11, 50, 70, 89, 91, 100}, 100),
               ElementsAre(100, 100, 99, 50, 25, 1, 0, 0));
 }
 
-TEST(ShadeRule, ScaleWithoutARangeBetweenTheThresholdsIsUnknownThere) {
-  EXPECT_THAT(of_grays({ShadeMode::scale, false, 0.5, 0.5}, {1, 2, 3}, 4), ElementsAre(100, kUnknown, 0));
+TEST(ShadeRule, ScaleOfHumbleWithoutARangeBetweenTheThresholdsIsUnknownThere) {
+  EXPECT_THAT(of_grays(with_humble({ShadeMode::scale, false, 0.5, 0.5}), {1, 2, 3}, 4),
+              ElementsAre(100, kUnknown, 0));
 }
 
 TEST(ShadeRule, RawHasTheGrayAsPercentWhateverTheThresholds) {
   const ShadeRule rule{ShadeMode::raw, true, 0.65, 0.196};
   EXPECT_THAT(of_grays(rule, {0, 25, 65, 100, 101, 255}), ElementsAre(0, 25, 65, 100, kUnknown, kUnknown));
-  // Of 16 bits: 255 of 65535 is 0.99 of 255 steps, 25700 is 100 of them
-  EXPECT_THAT(of_grays(rule, {255, 25700, 25957}, 65535), ElementsAre(1, 100, kUnknown));
+  // Of 16 bits the upper 8: 255 of 65535 is 0, and 25956 is 100. Humble rounds.
+  EXPECT_THAT(of_grays(rule, {255, 257, 25956, 25957}, 65535), ElementsAre(0, 1, 100, kUnknown));
+  EXPECT_THAT(of_grays(with_humble(rule), {255, 25700, 25957}, 65535), ElementsAre(1, 100, kUnknown));
 }
 
-TEST(ShadeRule, ColoursCountByTheirMean) {
-  EXPECT_EQ(of_pixel({}, {0, 0, 255}), 100);        // 1 - 85 / 255 = 0.667
-  EXPECT_EQ(of_pixel({}, {0, 30, 255}), kUnknown);  // 1 - 95 / 255 = 0.627
-  EXPECT_EQ(of_pixel({}, {200, 210, 255}), 0);      // 1 - 221.7 / 255 = 0.131
-  EXPECT_EQ(of_pixel({ShadeMode::raw}, {10, 20, 33}), 21);
+TEST(ShadeRule, ColoursCountByTheirLuminance) {
+  const ShadeRule raw{ShadeMode::raw};
+  // 0.299 red + 0.587 green + 0.114 blue in 16 bits, rounded, of which the upper 8 bits are taken
+  EXPECT_EQ(of_pixel(raw, {255, 0, 0}), 76);         // 76.245
+  EXPECT_EQ(of_pixel(raw, {0, 0, 255}), 29);         // 29.07
+  EXPECT_EQ(of_pixel(raw, {118, 100, 3}), 94);       // 94.324
+  EXPECT_EQ(of_pixel(raw, {117, 72, 68}), 85);       // 84.999, which the 16 bits round up
+  EXPECT_EQ(of_pixel(raw, {163, 99, 0}), kUnknown);  // 106.85
+  EXPECT_EQ(of_pixel({}, {0, 255, 0}), kUnknown);    // 149.685: 1 - 149 / 255 = 0.416
+  EXPECT_EQ(of_pixel({}, {255, 255, 0}), 0);         // 225.93
 }
 
-TEST(ShadeRule, AlphaIsAFourthColourInTrinary) {
-  EXPECT_EQ(of_pixel({}, {0, 0, 0, 0}), 100);
-  EXPECT_EQ(of_pixel({}, {0, 0, 0, 255}), 100);          // 1 - 63.75 / 255 = 0.75
-  EXPECT_EQ(of_pixel({}, {40, 40, 40, 255}), kUnknown);  // 1 - 93.75 / 255 = 0.632
-  EXPECT_EQ(of_pixel({}, {40, 255}), kUnknown);          // the same as gray and alpha
-  EXPECT_EQ(of_pixel({}, {255, 0}), kUnknown);           // 1 - 191.25 / 255 = 0.25
+TEST(ShadeRule, ColoursOfHumbleCountByTheirMean) {
+  EXPECT_EQ(of_pixel(with_humble(), {0, 0, 255}), 100);        // 1 - 85 / 255 = 0.667
+  EXPECT_EQ(of_pixel(with_humble(), {0, 30, 255}), kUnknown);  // 1 - 95 / 255 = 0.627
+  EXPECT_EQ(of_pixel(with_humble(), {200, 210, 255}), 0);      // 1 - 221.7 / 255 = 0.131
+  EXPECT_EQ(of_pixel(with_humble({ShadeMode::raw}), {10, 20, 33}), 21);
 }
 
-TEST(ShadeRule, PixelsThatAreNotOpaqueAreUnknownInScale) {
-  const ShadeRule rule{ShadeMode::scale, false, 0.65, 0.196};
-  EXPECT_EQ(of_pixel(rule, {0, 0, 0, 254}), kUnknown);
-  EXPECT_EQ(of_pixel(rule, {0, 0, 0, 255}), 100);
-  EXPECT_EQ(of_pixel(rule, {255, 0}), kUnknown);
-  EXPECT_EQ(of_pixel(rule, {255, 255}), 0);
+TEST(ShadeRule, AlphaOfHumbleIsAFourthColourInTrinary) {
+  EXPECT_EQ(of_pixel(with_humble(), {0, 0, 0, 0}), 100);
+  EXPECT_EQ(of_pixel(with_humble(), {0, 0, 0, 255}), 100);          // 1 - 63.75 / 255 = 0.75
+  EXPECT_EQ(of_pixel(with_humble(), {40, 40, 40, 255}), kUnknown);  // 1 - 93.75 / 255 = 0.632
+  EXPECT_EQ(of_pixel(with_humble(), {40, 255}), kUnknown);          // the same as gray and alpha
+  EXPECT_EQ(of_pixel(with_humble(), {255, 0}), kUnknown);           // 1 - 191.25 / 255 = 0.25
 }
 
-TEST(ShadeRule, RawDoesNotLookAtAlpha) { EXPECT_EQ(of_pixel({ShadeMode::raw}, {42, 0}), 42); }
+TEST(ShadeRule, PixelsThatAreNotOpaqueAreUnknownInEveryMode) {
+  for (const ShadeMode mode : {ShadeMode::trinary, ShadeMode::scale, ShadeMode::raw}) {
+    const ShadeRule rule{mode, false, 0.65, 0.196};
+    EXPECT_EQ(of_pixel(rule, {0, 0, 0, 254}), kUnknown);
+    EXPECT_EQ(of_pixel(rule, {0, 0}), kUnknown);
+    EXPECT_NE(of_pixel(rule, {0, 0, 0, 255}), kUnknown);
+    EXPECT_NE(of_pixel(rule, {0, 255}), kUnknown);
+  }
+  const ShadeRule old = with_humble({ShadeMode::scale, false, 0.65, 0.196});
+  EXPECT_EQ(of_pixel(old, {0, 0, 0, 254}), kUnknown);
+  EXPECT_EQ(of_pixel(old, {0, 0, 0, 255}), 100);
+  EXPECT_EQ(of_pixel(with_humble({ShadeMode::raw}), {42, 0}), 42);
+}
+
+/// The gray 205, with which map_saver writes unknown cells, is unknown whatever the form of the image.
+TEST(ShadeRule, UnknownGrayIsUnknownInEveryForm) {
+  EXPECT_THAT(of_grays({}, {205}), ElementsAre(kUnknown));
+  EXPECT_EQ(of_pixel({}, {205, 205, 205}), kUnknown);
+  EXPECT_EQ(of_pixel({}, {205, 255}), kUnknown);
+  EXPECT_EQ(of_pixel({}, {205, 205, 205, 255}), kUnknown);
+  EXPECT_EQ(of_pixel(with_humble(), {205, 205, 205, 255}), 0);
+}
 
 TEST(ShadeRule, OfAllGraysIsTheSameWithAndWithoutATable) {
   for (const ShadeMode mode : {ShadeMode::trinary, ShadeMode::scale, ShadeMode::raw}) {

@@ -125,10 +125,16 @@ INSTANTIATE_TEST_SUITE_P(
              "wrong_type", "a whole number from -1 to 100"},
         Case{"NoX", [](Json& r) { grid_info(r)["origin"]["position"].erase("x"); },
              in_message("/info/origin/position/x"), "missing", "x is missing"},
-        Case{"Turned", [](Json& r) { grid_info(r)["origin"]["orientation"] = turned(0.7071, 0.7071); },
-             in_message("/info/origin/orientation"), "out_of_range", "is turned by its orientation"},
-        Case{"TurnedSlightly", [](Json& r) { grid_info(r)["origin"]["orientation"] = turned(1e-5, 1.0); },
-             in_message("/info/origin/orientation"), "out_of_range", "poses in the frame of the image"}),
+        Case{"Turned", [](Json& r) { grid_info(r)["origin"]["orientation"] = turned(0.6, 0.8); },
+             in_message("/info/origin/orientation"), "out_of_range",
+             "is turned by its orientation, by 1.287"},
+        Case{"TurnedSlightly", [](Json& r) { grid_info(r)["origin"]["orientation"] = turned(1e-3, 1.0); },
+             in_message("/info/origin/orientation"), "out_of_range", "poses in the frame of the image"},
+        Case{"Tilted",
+             [](Json& r) {
+               grid_info(r)["origin"]["orientation"] = {{"x", 0.1}, {"y", 0.0}, {"z", 0.0}, {"w", 0.995}};
+             },
+             in_message("/info/origin/orientation"), "out_of_range", "is tilted by its orientation"}),
     [](const auto& one) { return one.param.name; });
 
 void replace_file(Json& request, const std::string& file) { image(request)["pgm"] = support::base64(file); }
@@ -165,7 +171,12 @@ INSTANTIATE_TEST_SUITE_P(
                          },
                          "/map/image/origin", "wrong_size", "it has 2 items"},
                     Case{"Turned", [](Json& r) { image(r)["origin"][2] = 0.1; }, "/map/image/origin/2",
-                         "out_of_range", "must be 0, because maps are not turned, not 0.1; turn the image"},
+                         "out_of_range",
+                         "must be a multiple of pi / 2 (0, 1.5708, 3.1416 or -1.5708), not 0.1"},
+                    Case{"TurnedByAlmostAQuarter", [](Json& r) { image(r)["origin"][2] = 1.57; },
+                         "/map/image/origin/2", "out_of_range", "not 1.57; turn the image by the rest"},
+                    Case{"UnknownRelease", [](Json& r) { image(r)["release"] = "iron"; },
+                         "/map/image/release", "unknown_value", "\"jazzy\" or \"humble\""},
                     Case{"UnknownMode", [](Json& r) { image(r)["mode"] = "binary"; }, "/map/image/mode",
                          "unknown_value", "\"trinary\", \"scale\" or \"raw\""},
                     Case{"NegateIsTwo", [](Json& r) { image(r)["negate"] = 2; }, "/map/image/negate",

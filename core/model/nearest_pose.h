@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "core/geometry/position.h"
+#include "core/map/line_of_sight.h"
+#include "core/runtime/stop_condition.h"
+
+namespace fleetplan::core {
+
+/// Finds the nearest places where disks fit that do not fit where they are, for messages. All of them
+/// together take a bounded number of tests.
+class NearestPlaces {
+ public:
+  /// `origin` is that of the map in the world, where the coordinates that are found have few decimals.
+  NearestPlaces(const Position& origin, const StopCondition& stop) : origin_(origin), stop_(stop) {}
+
+  /// Returns a place where the disk fits, the nearest one to within 2 %, or 1 cm for the sake of fewer
+  /// decimals. The disk overlaps obstacles by `overlap` (metres, > 0) at `from`, and no place is nearer than
+  /// that. None if none is found.
+  std::optional<Position> of(const LineOfSight& sight, const Position& from, double radius, double overlap);
+
+ private:
+  bool fits(const LineOfSight& sight, const Position& place, double radius);
+  std::optional<Position> with_few_decimals(const LineOfSight& sight, const Position& from,
+                                            const Position& place, double radius);
+
+  Position origin_;
+  StopCondition stop_;
+  std::size_t tests_ = 0;
+  bool is_over_ = false;
+};
+
+}  // namespace fleetplan::core
