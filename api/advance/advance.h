@@ -1,9 +1,9 @@
 #pragma once
 
-// The fleet at a later moment of its plan, in the map frame: what a robot executes, seen from that moment (timeline.cpp), what
-// is released of it already (released.cpp), how robots brake that need time to stop (inertia.cpp), which
-// commitments collide and where they have to end (committed_motion.cpp), the robots of the next request
-// (advance.cpp).
+// The fleet at a later moment of its plan, in the map frame: what a robot executes, seen from that moment
+// (timeline.cpp), what is released of it already (released.cpp), how robots brake that need time to stop
+// (inertia.cpp), which commitments collide and where they have to end (committed_motion.cpp), the robots of
+// the next request (advance.cpp).
 
 #include <cstddef>
 #include <optional>
@@ -59,9 +59,9 @@ struct PassedGoals {
   std::size_t count = 0;
 };
 
-/// Returns the goals that the commitment of the robot of that moment, `next`, passes and that change its load:
-/// the last of them, and those before it, which come before the other goals that it has got. None if it has
-/// got none.
+/// Returns the goals that the commitment of the robot of that moment, `next`, passes and that change its
+/// load: the last of them, and those before it, which come before the other goals that it has got. None if it
+/// has got none.
 PassedGoals passed_goals(const core::Robot& robot, const Execution& execution, const Moment& moment,
                          const core::Robot& next);
 

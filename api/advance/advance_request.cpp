@@ -372,7 +372,8 @@ class GoalsToRepeat {
 void write_goals(JsonWriter& json, const core::Robot& robot, const WorldFrame& frame,
                  const GoalsToRepeat& goals, bool as_one) {
   const auto write = [&](std::size_t goal) {
-    write_goal(json, robot.goal_at(goal), frame, goals.texts_of(goal), goals.is_open(goal), goals.choice(goal));
+    write_goal(json, robot.goal_at(goal), frame, goals.texts_of(goal), goals.is_open(goal),
+               goals.choice(goal));
   };
   const std::size_t count = robot.own_goal_count();
   if (count == 0) return;
