@@ -106,9 +106,12 @@ std::optional<Past> past_of(const Json& robot, const Json& plan, double at) {
     const bool is_last = number + 1 == goals.size();
     const double arrives = visit.at("t_arrive");
     const bool has_end = !visit.at("t_leave").is_null();
-    const double end = has_end
-                           ? visit.at("t_leave").get<double>()
-                           : std::max(arrives, goal.value("not_before", 0.0)) + goal.value("service", 0.0);
+    double end = std::max(arrives, goal.value("not_before", 0.0)) + goal.value("service", 0.0);
+    if (has_end) end = visit.at("t_leave");
+    // The service at the last goal ends with the commitment at the earliest.
+    if (!has_end && robot.contains("committed")) {
+      end = std::max(end, robot.at("committed").back().at("t_end").get<double>());
+    }
     if (std::abs(end - at) < kRounding) return std::nullopt;
     if (end > at) break;
     past.load = past.load.after(goal);

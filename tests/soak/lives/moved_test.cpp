@@ -80,10 +80,13 @@ Json expect_moved(const char* name, const Endpoint& endpoint, const Json& body, 
 /// What happens at a moment of the plans.
 Json advance_body(Dice& dice, const Json& request, const Json& answer) {
   const double at = dice.between(0.0, 0.6 * answer.at("makespan").get<double>() + 1.0);
-  Json body{{"request", request}, {"plans", answer.at("plans")}, {"at", at}};
-  if (dice.chance(0.6)) body["commit"] = dice.between(0.0, 12.0);
-  for (Json& plan : body["plans"]) {
+  Json plans = answer.at("plans");
+  for (Json& plan : plans) {
     if (dice.chance(0.2)) plan.erase("visits");
+  }
+  Json body{{"request", request}, {"plans", plans}, {"at", at}};
+  if (dice.chance(0.6)) body["commit"] = dice.between(0.0, 12.0);
+  for (Json& plan : plans) {
     if (dice.chance(0.2)) body["holds"].push_back({{"robot", plan["robot"]}, {"until", 3.0}});
     const auto under = under_way(plan.at("actions"), at);
     if (under && dice.chance(0.2)) {
