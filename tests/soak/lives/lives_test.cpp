@@ -231,6 +231,7 @@ class EverythingLife {
     EXPECT_EQ(load.acceleration, past->load.acceleration) << id;
     EXPECT_EQ(load.deceleration, past->load.deceleration) << id;
     if (has_entry(body, "goals", id)) return expect_that_passed_loads_are_kept(robot, plan, at, left);
+    if (own_goals(robot).empty()) return;  // one that returns has a goal at its start then
     const bool goes =
         past->has_served_last && (robot.value("idle", "") == "stay" || robot.value("idle", "") == "yield");
     const std::size_t count =
