@@ -122,6 +122,7 @@ Reply advance_endpoint(std::string_view body, const RequestContext& context) {
     auto robots = advanced(request->robots, request->executions, moment, braking, work);
     if (work.met()) return std::nullopt;
     const Circumstances circumstances = make_acceptable(*request, robots, braking, context.maps, work);
+    leave_out_unfit(robots, request->robots, request->executions, moment, work);
     if (work.met()) return std::nullopt;
     return write_advanced(*request, robots, circumstances, work);
   };

@@ -46,12 +46,6 @@ std::string seconds(double t) { return number_text(t) + " s"; }
 
 }  // namespace
 
-void leave_out_unfit_profiles(std::vector<core::Action>& actions) {
-  for (core::Action& action : actions) {
-    if (action.profile && !core::profile_fits(action)) action.profile.reset();
-  }
-}
-
 OpenLoadOnTheWay::OpenLoadOnTheWay(const core::Robot& robot, const std::vector<core::OpenGoal>& open)
     : robot_(robot), open_(open), on_the_way_(settled_at_start()) {}
 
@@ -76,7 +70,7 @@ void OpenLoadOnTheWay::execute(const core::Action& action) {
 void OpenLoadOnTheWay::settle(std::size_t goal, const core::Pose& pose) {
   const auto open = std::lower_bound(open_.begin(), open_.end(), goal,
                                      [](const core::OpenGoal& one, std::size_t k) { return one.goal < k; });
-  if (open == open_.end() || open->goal != goal) return;
+  if (open == open_.end() || open->goal != goal || open->is_told) return;
   // Bounded: a hundred poses.
   for (std::size_t k = 0; k < open->poses.size(); ++k) {
     if (!core::is_in_pose(pose, {open->poses[k].position, open->poses[k].theta})) continue;

@@ -20,9 +20,6 @@ namespace fleetplan::api {
 /// its speeds only, until the robot is known.
 core::Action parse_action(const JsonReader& item, const Range& times);
 
-/// Leaves out the profiles that do not fit: what a robot does by an invalid plan is as good as measured.
-void leave_out_unfit_profiles(std::vector<core::Action>& actions);
-
 /// Returns the action in the map frame, with normalised headings.
 core::Action to_map(const core::Action& world, const WorldFrame& frame);
 
@@ -49,7 +46,8 @@ struct ParsedActions {
 std::optional<ParsedActions> parse_actions(const JsonReader& list, const ActionsOwner& owner,
                                            const WorldFrame& frame);
 
-/// See core::LoadOnTheWay. A goal that is open is served in the pose in which the robot rests first.
+/// See core::LoadOnTheWay. A goal that is open is served in the pose in which the robot rests first,
+/// if the request does not tell the pose.
 class OpenLoadOnTheWay {
  public:
   OpenLoadOnTheWay(const core::Robot& robot, const std::vector<core::OpenGoal>& open);

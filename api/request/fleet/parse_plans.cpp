@@ -79,6 +79,8 @@ void settle_choices(const JsonReader& json, const core::RobotPlan& plan, ParsedR
     is_told = is_told || member;
   }
   if (is_told || read.open.empty()) return;
+  // A choice of the request is that of its own actions.
+  for (core::OpenGoal& open : read.open) open.is_told = false;
   core::settle_by_actions(read.robot, read.open, plan.actions, true, json.work().reading());
 }
 
@@ -148,6 +150,28 @@ std::vector<core::RobotPlan> parse_plans(const JsonReader& member, std::vector<P
                             member.work().reading());
   }
   return plans;
+}
+
+void check_profiles(const JsonReader& list, const std::vector<core::RobotPlan>& plans) {
+  if (list.fault_count() > 0) return;
+  auto plan = plans.begin();
+  // Bounded: the items that were read.
+  for (const JsonReader item : list.items()) {
+    if (plan == plans.end()) return;
+    auto action = plan->actions.begin();
+    for (const JsonReader entry : item.find("actions").items()) {
+      if (action == plan->actions.end()) break;
+      if (action->profile && !core::profile_fits(*action)) {
+        entry.find("profile").fault(
+            fault::kProfile,
+            "With the accelerations that the robot has during this action, the profile does not lead over its "
+            "length, or angle, in its time. Send the plan with the request that it was made for, or leave the "
+            "profile out for measured motion.");
+      }
+      ++action;
+    }
+    ++plan;
+  }
 }
 
 namespace {
