@@ -316,7 +316,15 @@ Actions braking_of(const core::Robot& robot, const Execution& execution, const M
 
 }  // namespace
 
-core::Robot advanced(const core::Robot& robot, const Execution& execution, const Moment& moment) {
+namespace {
+
+/// A robot at the moment, and all that it does if it goes on as planned.
+struct Advanced {
+  core::Robot robot;
+  Actions course;
+};
+
+Advanced advanced_with_course(const core::Robot& robot, const Execution& execution, const Moment& moment) {
   const Located located = locate(robot, execution, moment);
   Course course = moment.stand_until ? standing_course(robot, execution, located, moment)
                                      : usual_course(robot, execution, located, moment);
@@ -329,6 +337,7 @@ core::Robot advanced(const core::Robot& robot, const Execution& execution, const
   renumber(rest.actions, execution.goals ? robot.goal_count() : left.visited);
   set_goals(next, execution.goals ? *execution.goals : std::move(left.goals));
   if (!execution.goals) align_service(next, rest);
+  core::mark_services(next, rest.actions, 0);
   const bool counts_age = moment.has_horizon && next.goal && !execution.goals;
 
   next.committed = stopped_by(rest.actions, course.committed_until);
@@ -339,7 +348,13 @@ core::Robot advanced(const core::Robot& robot, const Execution& execution, const
     Actions previous = split_at(rest.actions, course.committed_until);
     if (have_profiles(previous, next.committed.size(), robot)) next.previous = std::move(previous);
   }
-  return next;
+  return {std::move(next), std::move(rest.actions)};
+}
+
+}  // namespace
+
+core::Robot advanced(const core::Robot& robot, const Execution& execution, const Moment& moment) {
+  return advanced_with_course(robot, execution, moment).robot;
 }
 
 std::vector<Actions> braking_of(const std::vector<core::Robot>& robots,
@@ -400,14 +415,18 @@ std::vector<double> margins_of(const std::vector<core::Robot>& robots,
 
 std::vector<core::Robot> advanced(const std::vector<core::Robot>& robots,
                                   const std::vector<Execution>& executions, const Moment& moment,
-                                  const std::vector<Actions>& braking, core::Work& work) {
+                                  Motions& motions, core::Work& work) {
   std::vector<core::Robot> next;
   next.reserve(robots.size());
+  motions.courses.resize(robots.size());
   for (std::size_t k = 0; k < robots.size(); ++k) {
     if (work.met_after(kWorkOfAnAction * (1 + executions[k].actions.size()))) return next;
-    next.push_back(advanced(robots[k], executions[k], moment));
+    auto [robot, course] = advanced_with_course(robots[k], executions[k], moment);
+    next.push_back(std::move(robot));
+    // What is held or has been released goes no further.
+    if (!moment.stand_until && !executions[k].hold) motions.courses[k] = std::move(course);
   }
-  clear_commitments(next, margins_of(robots, executions, moment, next, work), braking, work);
+  clear_commitments(next, margins_of(robots, executions, moment, next, work), motions, work);
   return next;
 }
 
