@@ -3,7 +3,6 @@
 #include <variant>
 
 #include "api/advance/advance_request.h"
-#include "api/request/fleet/parse_actions.h"
 #include "core/geometry/position.h"
 #include "core/geometry/tolerance.h"
 #include "core/model/problem.h"
@@ -25,6 +24,15 @@ constexpr double kStillUnderWay = 1e-9;
 bool drives(const core::Robot& robot) {
   return std::any_of(robot.committed.begin(), robot.committed.end(),
                      [](const Action& action) { return action.type == Action::Type::translate; });
+}
+
+/// What /v1/plan reads when this is written: rounded in the client's world.
+core::Position read_back(const core::Position& position, const WorldFrame& frame) {
+  return frame.to_world(position) - frame.origin;
+}
+
+core::Pose read_back(const core::Pose& pose, const WorldFrame& frame) {
+  return {read_back(pose.position, frame), core::normalize_angle(pose.theta)};
 }
 
 /// Mends what the problem of the new request has for faults, until there are none.
@@ -72,13 +80,16 @@ class Mending {
       core::Robot robot = request_.fleet.robots[k].robot;
       robot.previous.reset();
       robot.radius = next.radius;
-      robot.start = {frame.to_map(next.start.position), core::normalize_angle(next.start.theta)};
+      robot.start = read_back(next.start, frame);
       robot.via = next.via;
       robot.goal = next.goal;
-      for (core::Goal& goal : robot.via) goal.position = frame.to_map(goal.position);
-      if (robot.goal) robot.goal->position = frame.to_map(robot.goal->position);
-      robot.committed.clear();
-      for (const Action& action : next.committed) robot.committed.push_back(to_map(action, frame));
+      for (core::Goal& goal : robot.via) goal.position = read_back(goal.position, frame);
+      if (robot.goal) robot.goal->position = read_back(robot.goal->position, frame);
+      robot.committed = next.committed;
+      for (Action& action : robot.committed) {
+        action.from = read_back(action.from, frame);
+        action.to = read_back(action.to, frame);
+      }
       all.push_back(std::move(robot));
     }
     return all;

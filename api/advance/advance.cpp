@@ -124,6 +124,31 @@ void renumber(Actions& actions, std::size_t visited) {
   }
 }
 
+/// The number of these goals that the committed actions of a robot serve, up to the last one that changes its
+/// load.
+std::size_t count_of_passed(const core::Robot& next, const std::vector<core::Goal>& goals) {
+  core::Robot passing = next;
+  passing.via = goals;
+  passing.goal.emplace().anywhere = true;  // the last goal always remains: so all of these may be served
+  std::size_t count = core::served_goals(passing, next.committed).visits.size();
+  while (count > 0 && !goals[count - 1].changes_load()) --count;
+  return count;
+}
+
+/// Gives a robot other goals than those that are left. Those that its commitment passes, and that change its
+/// load, come before them. A robot that gets none parks where its commitment ends.
+void set_other_goals(core::Robot& next, std::vector<core::Goal> left, const std::vector<core::Goal>& other) {
+  left.resize(count_of_passed(next, left));
+  for (Action& action : next.committed) {
+    if (action.goal && *action.goal >= left.size()) action.goal.reset();
+  }
+  if (!left.empty() && other.empty()) {
+    left.push_back({next.committed_end().position, next.committed_end().theta});
+  }
+  left.insert(left.end(), other.begin(), other.end());
+  set_goals(next, std::move(left));
+}
+
 /// A service under way and the wait that is left of it end together, whatever the rounding.
 void align_service(core::Robot& robot, const Remainder& rest) {
   if (robot.goal_count() == 0 || rest.actions.empty() || rest.actions.front().goal != 0U) return;
@@ -226,6 +251,13 @@ bool have_profiles(const Actions& actions, std::size_t first, const core::Robot&
   };
   const auto begin = actions.begin() + static_cast<std::ptrdiff_t>(std::min(first, actions.size()));
   return std::all_of(begin, actions.end(), has_its_own);
+}
+
+/// Whether POST /v1/plan accepts previous actions of this robot, as far as their times and profiles go. Only
+/// committed motion may be measured.
+bool is_accepted(const Actions& previous, const core::Robot& robot) {
+  const double end = previous.empty() ? 0.0 : previous.back().t_end;
+  return end <= kLongestTime && have_profiles(previous, robot.committed.size(), robot);
 }
 
 /// What it cannot leave out of this remainder.
@@ -334,19 +366,22 @@ Advanced advanced_with_course(const core::Robot& robot, const Execution& executi
   core::Robot next = robot;
   next.start = rest.start;
   core::set_load(next, left.load);
-  renumber(rest.actions, execution.goals ? robot.goal_count() : left.visited);
-  set_goals(next, execution.goals ? *execution.goals : std::move(left.goals));
-  if (!execution.goals) align_service(next, rest);
-  core::mark_services(next, rest.actions, 0);
-  const bool counts_age = moment.has_horizon && next.goal && !execution.goals;
-
+  renumber(rest.actions, left.visited);
+  course.committed_until = std::min(course.committed_until, kLongestTime);
   next.committed = stopped_by(rest.actions, course.committed_until);
+  if (execution.goals) {
+    set_other_goals(next, std::move(left.goals), *execution.goals);
+  } else {
+    set_goals(next, std::move(left.goals));
+    align_service(next, rest);
+  }
+  const bool counts_age = moment.has_horizon && next.goal && !execution.goals;
   next.goal_age = counts_age && !core::has_arrived(next) ? left.age : 0.0;
   next.previous.reset();
   const bool goes_on = execution.planned && !located.is_elsewhere && !execution.goals;
   if (goes_on) {
-    Actions previous = split_at(rest.actions, course.committed_until);
-    if (have_profiles(previous, next.committed.size(), robot)) next.previous = std::move(previous);
+    next.previous = split_at(rest.actions, course.committed_until);
+    if (!is_accepted(*next.previous, next)) next.previous.reset();
   }
   return {std::move(next), std::move(rest.actions)};
 }
@@ -355,6 +390,37 @@ Advanced advanced_with_course(const core::Robot& robot, const Execution& executi
 
 core::Robot advanced(const core::Robot& robot, const Execution& execution, const Moment& moment) {
   return advanced_with_course(robot, execution, moment).robot;
+}
+
+PassedGoals passed_goals(const core::Robot& robot, const Execution& execution, const Moment& moment,
+                         const core::Robot& next) {
+  if (!execution.goals) return {};
+  const double progress = locate(robot, execution, moment).progress.t;
+  const GoalsLeft left = goals_left(robot, execution, progress, moment.at);
+  return {left.visited, count_of_passed(next, left.goals)};
+}
+
+void leave_out_unfit(std::vector<core::Robot>& next, const std::vector<core::Robot>& robots,
+                     const std::vector<Execution>& executions, const Moment& moment, core::Work& work) {
+  for (std::size_t k = 0; k < next.size(); ++k) {
+    if (work.met_after(1 + executions[k].actions.size())) return;
+    core::Robot& robot = next[k];
+    if (robot.previous && !is_accepted(*robot.previous, robot)) robot.previous.reset();
+    if (!executions[k].goals) continue;
+    if (work.met_after(kWorkOfAnAction * (1 + executions[k].actions.size()))) return;
+    const double progress = locate(robots[k], executions[k], moment).progress.t;
+    set_other_goals(robot, goals_left(robots[k], executions[k], progress, moment.at).goals,
+                    *executions[k].goals);
+  }
+}
+
+void mark_services(std::vector<core::Robot>& next, core::Work& work) {
+  for (core::Robot& robot : next) {
+    const std::size_t previous = robot.previous ? robot.previous->size() : 0;
+    if (work.met_after(kWorkOfAnAction * (1 + robot.committed.size() + previous))) return;
+    core::mark_services(robot, robot.committed, 0);
+    if (robot.previous) core::mark_services(robot, *robot.previous, 0);
+  }
 }
 
 std::vector<Actions> braking_of(const std::vector<core::Robot>& robots,

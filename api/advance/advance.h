@@ -1,10 +1,9 @@
 #pragma once
 
-// The fleet at a later moment of its plan. All poses are in the client's world, so that no number changes
-// that the moment does not change: what a robot executes, seen from that moment (timeline.cpp), what
-// is released of it already (released.cpp), how robots brake that need time to stop (inertia.cpp), which
-// commitments collide and where they have to end (committed_motion.cpp), the robots of the next request
-// (advance.cpp).
+// The fleet at a later moment of its plan, in the map frame: what a robot executes, seen from that moment
+// (timeline.cpp), what is released of it already (released.cpp), how robots brake that need time to stop
+// (inertia.cpp), which commitments collide and where they have to end (committed_motion.cpp), the robots of
+// the next request (advance.cpp).
 
 #include <cstddef>
 #include <optional>
@@ -54,10 +53,30 @@ struct Execution {
   bool stays_when_served = false;  // then it has no goal any more, and does not move
 };
 
+/// Goals that a robot has though it has got other ones.
+struct PassedGoals {
+  std::size_t first = 0;  // its number among those that it had
+  std::size_t count = 0;
+};
+
+/// Returns the goals that the commitment of the robot of that moment, `next`, passes and that change its
+/// load: the last of them, and those before it, which come before the other goals that it has got. None if it
+/// has got none.
+PassedGoals passed_goals(const core::Robot& robot, const Execution& execution, const Moment& moment,
+                         const core::Robot& next);
+
+/// Leaves out what belongs to commitments that have been ended early: goals that they do not pass any more,
+/// and previous actions that POST /v1/plan would not accept.
+void leave_out_unfit(std::vector<core::Robot>& next, const std::vector<core::Robot>& robots,
+                     const std::vector<Execution>& executions, const Moment& moment, core::Work& work);
+
 /// Returns the robot of the request of that moment: its start, goals, radius, committed and previous actions.
 /// Its radius is the one after the goals that it has left behind, and after a last goal that it has served.
 /// It has no previous actions if it has no plan, is elsewhere than planned, or gets other goals.
 core::Robot advanced(const core::Robot& robot, const Execution& execution, const Moment& moment);
+
+/// Says of the committed and previous waits of the robots which goals they serve, see core::mark_services.
+void mark_services(std::vector<core::Robot>& next, core::Work& work);
 
 /// Returns by robot what one that drives at the moment cannot leave out, on the clock of the moment: its
 /// motion until it can stand, which it can after its stop distance, and where its plan has it stand. Empty

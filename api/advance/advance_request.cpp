@@ -47,20 +47,20 @@ void read_entries(const JsonReader& list, std::span<const std::string_view> memb
   }
 }
 
-std::optional<core::Pose> parse_measured(const JsonReader& entry) {
+std::optional<core::Pose> parse_measured(const JsonReader& entry, const WorldFrame& frame) {
   const auto x = entry.require("x").number(kCoordinate);
   const auto y = entry.require("y").number(kCoordinate);
   const auto theta = entry.require("theta").number(kAnyAngle);
   if (!x || !y || !theta) return std::nullopt;
-  return core::Pose{{*x, *y}, core::normalize_angle(*theta)};
+  return core::Pose{frame.to_map({*x, *y}), core::normalize_angle(*theta)};
 }
 
 void parse_events(const JsonReader& root, const RobotNames& names, const Limits& limits,
-                  AdvanceRequest& request) {
+                  const WorldFrame& frame, AdvanceRequest& request) {
   std::vector<Execution>& executions = request.executions;
   Quota quota(limits.max_goals, "goals");
   read_entries(root.find("poses"), kPoseMembers, names, [&](const JsonReader& entry, auto robot) {
-    const auto pose = parse_measured(entry);
+    const auto pose = parse_measured(entry, frame);
     const auto speed = entry.find("speed").number(kMeasuredSpeed);
     if (!robot) return;
     executions[*robot].measured = pose;
@@ -72,14 +72,14 @@ void parse_events(const JsonReader& root, const RobotNames& names, const Limits&
   });
   read_entries(root.find("goals"), kGoalsMembers, names, [&](const JsonReader& entry, auto robot) {
     entry.require("goals");
-    ParsedGoals goals = parse_goals(entry, WorldFrame{}, quota);
+    ParsedGoals goals = parse_goals(entry, frame, quota);
     if (!robot) return;
     check_loads(goals.places, request.fleet.robots[*robot].robot);
     executions[*robot].goals = std::move(goals.goals);
     if (request.fleet.robots[*robot].robot.yields()) {
       executions[*robot].goals->emplace_back().anywhere = true;
     }
-    request.repeated[*robot].texts = std::move(goals.texts);
+    request.repeated[*robot].others = std::move(goals.texts);
   });
 }
 
@@ -101,7 +101,8 @@ std::optional<std::size_t> parse_action_number(const JsonReader& member, const c
 }
 
 /// A measured position without a heading has the planned one.
-std::optional<core::Pose> parse_measured_at(const JsonReader& entry, const core::Pose& planned) {
+std::optional<core::Pose> parse_measured_at(const JsonReader& entry, const WorldFrame& frame,
+                                            const core::Pose& planned) {
   const JsonReader theta_member = entry.find("theta");
   if (!entry.find("x") && !entry.find("y") && !theta_member) return std::nullopt;
   constexpr std::string_view kRemedy = "; a measured pose has x and y";
@@ -109,7 +110,7 @@ std::optional<core::Pose> parse_measured_at(const JsonReader& entry, const core:
   const auto y = entry.require("y", kRemedy).number(kCoordinate);
   const double theta = theta_member.number(kAnyAngle).value_or(planned.theta);
   if (!x || !y) return std::nullopt;
-  return core::Pose{{*x, *y}, core::normalize_angle(theta)};
+  return core::Pose{frame.to_map({*x, *y}), core::normalize_angle(theta)};
 }
 
 /// Reads how far a robot is released, which is not behind it.
@@ -132,7 +133,8 @@ std::optional<core::ActionPlace> parse_released(const JsonReader& member, const 
 }
 
 /// Reads where a robot says that it is in its actions.
-void parse_state(const JsonReader& entry, const core::Robot& robot, Execution& execution) {
+void parse_state(const JsonReader& entry, const WorldFrame& frame, const core::Robot& robot,
+                 Execution& execution) {
   const std::vector<core::Action>& actions = execution.actions;
   const JsonReader left_member = entry.find("service_left");
   const auto number = parse_action_number(entry.require("action"), robot, actions);
@@ -151,7 +153,7 @@ void parse_state(const JsonReader& entry, const core::Robot& robot, Execution& e
   execution.reported = ReportedState{{*number, *fraction}, service_left, {}};
   execution.reported->released =
       parse_released(entry.find("released"), robot, execution.reported->place, actions);
-  execution.measured = parse_measured_at(entry, pose_of(actions, *execution.reported));
+  execution.measured = parse_measured_at(entry, frame, pose_of(actions, *execution.reported));
 }
 
 /// Reads them when the actions of all robots are known.
@@ -165,8 +167,38 @@ void parse_states(const JsonReader& list, const RobotNames& names, AdvanceReques
           "This robot has an entry in poses, too: leave that out, and give the measured "
           "pose here, as x, y and theta.");
     }
-    parse_state(entry, request.robots[*robot], execution);
+    parse_state(entry, request.fleet.map->frame, request.robots[*robot], execution);
   });
+}
+
+Moment parse_moment(const JsonReader& root, const core::PlanOptions& options) {
+  Moment moment;
+  moment.at = root.require("at").number(kDuration).value_or(0.0);
+  moment.commit = root.find("commit").number(kDuration);
+  if (const auto tolerance = root.find("pose_tolerance").number(kLengthOrZero)) {
+    moment.pose_tolerance = *tolerance;
+  }
+  moment.wait_before_move = options.wait_before_move;
+  moment.inflation = options.inflation;
+  moment.has_horizon = options.horizon.has_value();
+  return moment;
+}
+
+/// Takes a robot of the fleet, whose open goals its plan has settled.
+void take_robot(std::size_t index, AdvanceRequest& read) {
+  ParsedRobot& given = read.fleet.robots[index];
+  RepeatedGoals& repeated = read.repeated[index];
+  repeated.texts = std::move(given.goal_texts);
+  repeated.open = std::move(given.open);
+  repeated.returns = given.idle == Idle::come_back;
+  Execution& execution = read.executions[index];
+  execution.stop_distance = given.stop_distance;
+  execution.stays_when_served = given.idle == Idle::stay;
+  core::Robot robot = given.robot;
+  if (!execution.planned) execution.actions = robot.committed;
+  // A robot that is off its path turns back as slowly as it has to anywhere.
+  robot.angular_speed = core::DriveZones(read.fleet.zones, index, robot).least_angular_speed();
+  read.robots.push_back(std::move(robot));
 }
 
 }  // namespace
@@ -175,24 +207,19 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
                                                     core::Work& work) {
   AdvanceRequest read;
   read.request = root.require("request").object(kPlanRequestMembers);
-  read.fleet = parse_fleet(read.request, limits, [&](const ParsedOptions& options) {
+  read.given = std::make_unique<GivenPositions>();
+  const auto set_budget = [&](const ParsedOptions& options) {
     work.set_budget(effective_budget(options, limits));
-  });
+  };
+  read.fleet = parse_fleet(read.request, limits, set_budget, read.given.get());
   Fleet& fleet = read.fleet;
-  read.moment.at = root.require("at").number(kDuration).value_or(0.0);
-  read.moment.commit = root.find("commit").number(kDuration);
-  if (const auto tolerance = root.find("pose_tolerance").number(kLengthOrZero)) {
-    read.moment.pose_tolerance = *tolerance;
-  }
-  read.moment.wait_before_move = fleet.options.plan.wait_before_move;
-  read.moment.inflation = fleet.options.plan.inflation;
-  read.moment.has_horizon = fleet.options.plan.horizon.has_value();
+  read.moment = parse_moment(root, fleet.options.plan);
   read.executions.resize(fleet.robots.size());
   read.repeated.resize(fleet.robots.size());
   const RobotNames names(fleet.robots, "robots of the request");
-  parse_events(root, names, limits, read);
-  // Without the map's frame, so that no number changes.
-  for (core::RobotPlan& plan : parse_plans(root.require("plans"), fleet.robots, WorldFrame{})) {
+  const WorldFrame frame = fleet.map ? fleet.map->frame : WorldFrame();
+  parse_events(root, names, limits, frame, read);
+  for (core::RobotPlan& plan : parse_plans(root.require("plans"), fleet.robots, frame)) {
     read.executions[plan.robot].actions = std::move(plan.actions);
     read.executions[plan.robot].planned = true;
     leave_out_unfit_profiles(read.executions[plan.robot].actions);
@@ -200,31 +227,11 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
   if (!read.request || root.fault_count() > 0 || work.met()) return std::nullopt;
   std::size_t corners = fleet.zones.size();
   for (const core::Zone& zone : fleet.zones) corners += zone.polygon.size();
-  UniqueIds unique_ids;
-  auto robots = parse_robots(read.request.find("robots"), read.request.find("robot_defaults"), WorldFrame{},
-                             limits, unique_ids);
-  for (ParsedRobot& robot : robots) {
-    const std::size_t index = read.robots.size();
+  for (std::size_t k = 0; k < fleet.robots.size(); ++k) {
     if (work.met_after(corners)) return std::nullopt;
-    RepeatedGoals& repeated = read.repeated[index];
-    if (!read.executions[index].goals) repeated.texts = std::move(robot.goal_texts);
-    read.executions[index].stop_distance = robot.stop_distance;
-    read.executions[index].stays_when_served = robot.idle == Idle::stay;
-    repeated.returns = robot.idle == Idle::come_back;
-    for (std::size_t k = 0; k < robot.open.size(); ++k) {
-      core::choose(robot.robot, robot.open[k], fleet.robots[index].open[k].chosen);
-      robot.open[k].is_settled = fleet.robots[index].open[k].is_settled;
-    }
-    repeated.open = std::move(robot.open);
-    // A robot that is off its path turns back as slowly as it has to anywhere.
-    const core::DriveZones zones(fleet.zones, index, robot.robot);
-    robot.robot.angular_speed = zones.least_angular_speed();
-    read.robots.push_back(std::move(robot.robot));
+    take_robot(k, read);
   }
-  read.obstacles = parse_obstacles(read.request.find("obstacles"), WorldFrame{}, limits, unique_ids);
-  for (std::size_t k = 0; k < read.robots.size(); ++k) {
-    if (!read.executions[k].planned) read.executions[k].actions = read.robots[k].committed;
-  }
+  read.obstacles = fleet.obstacles;
   parse_states(root.find("states"), names, read);
   if (root.fault_count() > 0) return std::nullopt;
   return work.met() ? std::nullopt : std::optional(std::move(read));
@@ -236,31 +243,36 @@ namespace {
 constexpr std::array<std::string_view, 6> kChanging{"start",     "goal",     "goals",
                                                     "committed", "previous", "goal_age"};
 
-void write_coordinates(JsonWriter& json, const core::Pose& pose) {
-  json.member("x", pose.position.x()).member("y", pose.position.y()).member("theta", pose.theta);
+void write_position(JsonWriter& json, const core::Position& position, const WorldFrame& frame) {
+  const core::Position world = frame.to_world(position);
+  json.member("x", world.x()).member("y", world.y());
 }
 
-void write_pose(JsonWriter& json, std::string_view key, const core::Pose& pose) {
+void write_pose(JsonWriter& json, std::string_view key, const core::Pose& pose, const WorldFrame& frame) {
   json.key(key).begin_object();
-  write_coordinates(json, pose);
-  json.end_object();
+  write_position(json, pose.position, frame);
+  json.member("theta", pose.theta).end_object();
 }
 
 /// With the speed, if the robot is under way.
-void write_start(JsonWriter& json, const core::Robot& robot) {
+void write_start(JsonWriter& json, const core::Robot& robot, const WorldFrame& frame) {
   json.key("start").begin_object();
-  write_coordinates(json, robot.start);
+  write_position(json, robot.start.position, frame);
+  json.member("theta", robot.start.theta);
   if (robot.committed_speed() != 0.0) json.member("speed", robot.committed_speed());
   json.end_object();
 }
 
-/// Without a service, nothing is left of its actions. `is_open`: it has all poses that were given.
-void write_goal(JsonWriter& json, const core::Goal& goal, const GoalTexts& texts, bool is_open) {
+/// Without a service, nothing is left of its actions. `is_open`: it has all poses that were given. `choice`:
+/// the one of them at which the actions of the robot serve it.
+void write_goal(JsonWriter& json, const core::Goal& goal, const WorldFrame& frame, const GoalTexts& texts,
+                bool is_open, std::optional<std::size_t> choice) {
   json.begin_object();
   if (is_open) {
     json.key("any_of").json(texts.any_of);
+    if (choice) json.member("choice", *choice);
   } else {
-    json.member("x", goal.position.x()).member("y", goal.position.y());
+    write_position(json, goal.position, frame);
     if (goal.theta) json.member("theta", *goal.theta);
   }
   if (goal.service > 0.0) json.member("service", goal.service);
@@ -278,7 +290,7 @@ void write_goal(JsonWriter& json, const core::Goal& goal, const GoalTexts& texts
 }
 
 void write_actions(JsonWriter& json, std::string_view key, const std::vector<core::Action>& actions,
-                   core::Work& work) {
+                   const WorldFrame& frame, core::Work& work) {
   constexpr std::size_t kTextOfAnAction = 512;  // bytes
   constexpr std::array<std::string_view, 3> kTypes{"rotate", "translate", "wait"};
   json.key(key).begin_array();
@@ -286,8 +298,8 @@ void write_actions(JsonWriter& json, std::string_view key, const std::vector<cor
     if (work.met_after(kTextOfAnAction)) break;
     json.begin_object().member("type", kTypes[static_cast<std::size_t>(action.type)]);
     json.member("t_start", action.t_start).member("t_end", action.t_end);
-    write_pose(json, "from", action.from);
-    write_pose(json, "to", action.to);
+    write_pose(json, "from", action.from, frame);
+    write_pose(json, "to", action.to, frame);
     if (action.goal) json.member("goal", *action.goal);
     if (action.reverse) json.member("reverse", true);
     if (action.profile) write_profile(json, *action.profile);
@@ -296,54 +308,72 @@ void write_actions(JsonWriter& json, std::string_view key, const std::vector<cor
   json.end_array();
 }
 
-/// What is repeated of the goals that are left: the last ones of those that the robot had.
+/// What is repeated of the goals of a robot: the last ones of those that it had, or those that it passes, and
+/// then other ones.
 class GoalsToRepeat {
  public:
   GoalsToRepeat(const AdvanceRequest& request, std::size_t index, const core::Robot& left)
       : left_(left), repeated_(request.repeated[index]) {
     const Execution& execution = request.executions[index];
-    const std::size_t had = execution.goals ? execution.goals->size() : request.robots[index].goal_count();
-    visited_ = had - left.goal_count();
     are_other_ = execution.goals.has_value();
+    if (are_other_) {
+      passed_ = passed_goals(request.robots[index], execution, request.moment, left);
+    } else {
+      passed_.first = request.robots[index].goal_count() - left.goal_count();
+    }
   }
 
   /// Whether the robot has got other goals.
   bool are_other() const { return are_other_; }
 
   /// Whether all poses of a goal are still possible. A robot that rests in the pose that its plan has chosen
-  /// stays with that, unless it is done and may come back to another one.
+  /// stays with that, unless it is done and may come back to another one; what it passes is past.
   bool is_open(std::size_t goal) const {
-    if (texts_of(goal).any_of.empty()) return false;
+    if (texts_of(goal).any_of.empty() || is_passed(goal)) return false;
     const core::Goal& next = left_.goal_at(goal);
-    if (goal > 0 || !is_settled(goal) || !core::is_in_pose(left_.start, next)) return true;
+    if (goal > 0 || settled(goal) == nullptr || !core::is_in_pose(left_.start, next)) return true;
     return repeated_.returns && left_.own_goal_count() == 1 && next.service == 0.0;
+  }
+
+  /// The number of the pose at which the actions of the robot serve a goal that is open.
+  std::optional<std::size_t> choice(std::size_t goal) const {
+    const core::OpenGoal* open = settled(goal);
+    if (open == nullptr || (left_.committed.empty() && !left_.previous)) return std::nullopt;
+    return open->choice().number;
   }
 
   const GoalTexts& texts_of(std::size_t goal) const {
     static const GoalTexts none;
-    const std::vector<GoalTexts>& all = repeated_.texts;
-    return visited_ + goal < all.size() ? all[visited_ + goal] : none;
+    const bool is_other = are_other_ && !is_passed(goal);
+    const std::vector<GoalTexts>& all = is_other ? repeated_.others : repeated_.texts;
+    const std::size_t number = is_other ? goal - passed_.count : passed_.first + goal;
+    return number < all.size() ? all[number] : none;
   }
 
  private:
-  /// Whether the plan serves the goal at one of several poses.
-  bool is_settled(std::size_t goal) const {
-    const auto settles = [&](const core::OpenGoal& open) {
-      return open.is_settled && open.goal == visited_ + goal;
-    };
-    return !are_other_ && std::any_of(repeated_.open.begin(), repeated_.open.end(), settles);
+  bool is_passed(std::size_t goal) const { return are_other_ && goal < passed_.count; }
+
+  /// The goal, if the plan serves it at one of several poses; otherwise null.
+  const core::OpenGoal* settled(std::size_t goal) const {
+    if (are_other_) return nullptr;
+    for (const core::OpenGoal& open : repeated_.open) {
+      if (open.is_settled && open.goal == passed_.first + goal) return &open;
+    }
+    return nullptr;
   }
 
   const core::Robot& left_;
   const RepeatedGoals& repeated_;
-  std::size_t visited_ = 0;
+  PassedGoals passed_;  // those that are left begin with the first one
   bool are_other_ = false;
 };
 
 /// As one goal if the request gave one goal, otherwise as a list.
-void write_goals(JsonWriter& json, const core::Robot& robot, const GoalsToRepeat& goals, bool as_one) {
+void write_goals(JsonWriter& json, const core::Robot& robot, const WorldFrame& frame,
+                 const GoalsToRepeat& goals, bool as_one) {
   const auto write = [&](std::size_t goal) {
-    write_goal(json, robot.goal_at(goal), goals.texts_of(goal), goals.is_open(goal));
+    write_goal(json, robot.goal_at(goal), frame, goals.texts_of(goal), goals.is_open(goal),
+               goals.choice(goal));
   };
   const std::size_t count = robot.own_goal_count();
   if (count == 0) return;
@@ -374,7 +404,8 @@ std::vector<std::pair<std::string_view, double>> changed_traits(const core::Robo
 
 /// `before`: as the request gave it.
 void write_robot(JsonWriter& json, const JsonValue& given, const core::Robot& before,
-                 const core::Robot& robot, const GoalsToRepeat& goals, core::Work& work) {
+                 const core::Robot& robot, const WorldFrame& frame, const GoalsToRepeat& goals,
+                 core::Work& work) {
   const auto changed = changed_traits(before, robot);
   const auto is_changed = [&](std::string_view key) {
     return std::any_of(changed.begin(), changed.end(), [&](const auto& trait) { return trait.first == key; });
@@ -387,12 +418,12 @@ void write_robot(JsonWriter& json, const JsonValue& given, const core::Robot& be
     copy_json(json, member);
   }
   for (const auto& [name, value] : changed) json.member(name, value);
-  write_start(json, robot);
+  write_start(json, robot, frame);
   const bool is_listed = given.find("goals").has_value() || goals.are_other();
-  write_goals(json, robot, goals, given.find("goal").has_value() || !is_listed);
+  write_goals(json, robot, frame, goals, given.find("goal").has_value() || !is_listed);
   if (robot.goal_age > 0.0) json.member("goal_age", robot.goal_age);
-  if (!robot.committed.empty()) write_actions(json, "committed", robot.committed, work);
-  if (robot.previous) write_actions(json, "previous", *robot.previous, work);
+  if (!robot.committed.empty()) write_actions(json, "committed", robot.committed, frame, work);
+  if (robot.previous) write_actions(json, "previous", *robot.previous, frame, work);
   json.end_object();
 }
 
@@ -401,7 +432,7 @@ void write_robots(JsonWriter& json, const JsonValue& given, const AdvanceRequest
   json.begin_array();
   std::size_t index = 0;
   for (const JsonValue robot : given.children()) {
-    write_robot(json, robot, request.robots[index], robots[index],
+    write_robot(json, robot, request.robots[index], robots[index], request.fleet.map->frame,
                 GoalsToRepeat(request, index, robots[index]), work);
     ++index;
   }
@@ -426,7 +457,8 @@ void write_obstacles(JsonWriter& json, const JsonValue& given, const AdvanceRequ
     json.key("motion").begin_array();
     for (const auto& entry : left->motion) {
       json.begin_object().member("t", entry.t);
-      json.member("x", entry.position.x()).member("y", entry.position.y()).end_object();
+      write_position(json, entry.position, request.fleet.map->frame);
+      json.end_object();
     }
     json.end_array().end_object();
   }

@@ -3,6 +3,7 @@
 // The request of POST /v1/advance and its answer, the request of a later moment. POST /v1/plan accepts it
 // wherever robots were measured (acceptable.cpp).
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,16 +19,18 @@
 
 namespace fleetplan::api {
 
-/// What the answer repeats of the goals of a robot, or of those that replace them.
+/// What the answer repeats of the goals of a robot, and of those that replace them.
 struct RepeatedGoals {
   std::vector<GoalTexts> texts;      // see ParsedGoals
+  std::vector<GoalTexts> others;     // of those that replace them
   std::vector<core::OpenGoal> open;  // as its plan has settled them
   bool returns = false;              // it may come back to any pose of its last goal, if that is open
 };
 
-/// A readable body of POST /v1/advance, in the client's world.
+/// A readable body of POST /v1/advance, in the frame of its map.
 struct AdvanceRequest {
-  Fleet fleet;  // of its request, in the map frame
+  std::unique_ptr<GivenPositions> given;  // so that the answer repeats positions to the last digit
+  Fleet fleet;                            // of its request
   Moment moment;
   std::vector<core::Robot> robots;
   std::vector<Execution> executions;    // by robot

@@ -124,6 +124,8 @@ Reply advance_endpoint(std::string_view body, const RequestContext& context) {
     auto robots = advanced(request->robots, request->executions, moment, motions, work);
     if (work.met()) return std::nullopt;
     const Circumstances circumstances = make_acceptable(*request, robots, motions, context.maps, work);
+    leave_out_unfit(robots, request->robots, request->executions, moment, work);
+    mark_services(robots, work);
     if (work.met()) return std::nullopt;
     return write_advanced(*request, robots, circumstances, work);
   };

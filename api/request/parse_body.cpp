@@ -289,12 +289,15 @@ RequestedDependencies requested_dependencies(const Fleet& fleet) {
 }
 
 Fleet parse_fleet(const JsonReader& root, const Limits& limits,
-                  const std::function<void(const ParsedOptions&)>& set_budget) {
+                  const std::function<void(const ParsedOptions&)>& set_budget, GivenPositions* given) {
   Fleet fleet;
   fleet.options = parse_options(root.find("options"));
   set_budget(fleet.options);
   fleet.map = parse_map(root.require("map"), limits.max_cells);
-  if (fleet.map) check_lattice(root.find("options"), fleet.options.plan, fleet.map->grid, limits);
+  if (fleet.map) {
+    fleet.map->frame.given = given;
+    check_lattice(root.find("options"), fleet.options.plan, fleet.map->grid, limits);
+  }
   const WorldFrame frame = fleet.map ? fleet.map->frame : WorldFrame{};
   UniqueIds ids;
   fleet.robots = parse_robots(root.require("robots"), root.find("robot_defaults"), frame, limits, ids);

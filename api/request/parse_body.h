@@ -42,8 +42,10 @@ struct Fleet {
 RequestedDependencies requested_dependencies(const Fleet& fleet);
 
 /// Reads the fleet from the root of the document. `set_budget` gets the options, which are read first.
+/// `given`, which may be null, remembers positions for the frame of the map, see WorldFrame.
 Fleet parse_fleet(const JsonReader& root, const Limits& limits,
-                  const std::function<void(const ParsedOptions&)>& set_budget);
+                  const std::function<void(const ParsedOptions&)>& set_budget,
+                  GivenPositions* given = nullptr);
 
 /// Reports a lattice of too many vertices, or of none. `options` is the member of the request.
 void check_lattice(const JsonReader& options, const core::PlanOptions& plan, const core::OccupancyGrid& grid,

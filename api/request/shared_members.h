@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "api/json/errors.h"
@@ -18,14 +20,46 @@
 
 namespace fleetplan::api {
 
+class GivenPositions;
+
 /// Where the map lies in the client's world. The core plans in the map frame, whose origin is the lower-left
 /// corner of the map; the axes are the same.
 struct WorldFrame {
   core::Position origin{0.0, 0.0};  // origin of the map in the world, metres
+  /// Remembers positions that were given, so that they are given back to the last digit; null: nobody does.
+  GivenPositions* given = nullptr;
 
-  core::Position to_map(const core::Position& world) const { return world - origin; }
-  core::Position to_world(const core::Position& map) const { return map + origin; }
+  core::Position to_map(const core::Position& world) const;
+  core::Position to_world(const core::Position& map) const;
 };
+
+/// Positions that a frame would not give back to the last digit.
+class GivenPositions {
+ public:
+  void keep(const core::Position& map, const core::Position& world) {
+    world_.insert_or_assign({map.x(), map.y()}, world);
+  }
+  std::optional<core::Position> find(const core::Position& map) const {
+    const auto found = world_.find({map.x(), map.y()});
+    return found != world_.end() ? std::optional(found->second) : std::nullopt;
+  }
+
+ private:
+  std::map<std::pair<double, double>, core::Position> world_;  // by the position in the map
+};
+
+inline core::Position WorldFrame::to_map(const core::Position& world) const {
+  const core::Position map = world - origin;
+  if (given != nullptr && map + origin != world) given->keep(map, world);
+  return map;
+}
+
+inline core::Position WorldFrame::to_world(const core::Position& map) const {
+  if (given != nullptr) {
+    if (const auto kept = given->find(map)) return *kept;
+  }
+  return map + origin;
+}
 
 /// How many things of one kind a request may contain in total, wherever they are.
 class Quota {

@@ -39,6 +39,7 @@ void settle_by_actions(Robot& robot, std::vector<OpenGoal>& open, std::span<cons
     double earliest = kForever;
     for (std::size_t k = 0; k < goal.poses.size(); ++k) {
       if (stop.met()) break;
+      if (goal.is_told && k != before) continue;
       choose(robot, goal, k);
       const double t = served_at(robot, goal, actions, also_last);
       if (t < earliest) best = k;

@@ -259,6 +259,7 @@ std::vector<OpenPlace> leave_out_blocked_poses(const std::shared_ptr<const Stati
       if (left.empty() && !goal.is_settled) without.push_back({robot, k});
       if (left.empty() || goal.is_settled) continue;
       goal.poses = std::move(left);
+      goal.is_told = false;
       choose(robots[robot], goal, 0);
     }
   }

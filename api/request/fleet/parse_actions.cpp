@@ -76,7 +76,7 @@ void OpenLoadOnTheWay::execute(const core::Action& action) {
 void OpenLoadOnTheWay::settle(std::size_t goal, const core::Pose& pose) {
   const auto open = std::lower_bound(open_.begin(), open_.end(), goal,
                                      [](const core::OpenGoal& one, std::size_t k) { return one.goal < k; });
-  if (open == open_.end() || open->goal != goal) return;
+  if (open == open_.end() || open->goal != goal || open->is_told) return;
   // Bounded: a hundred poses.
   for (std::size_t k = 0; k < open->poses.size(); ++k) {
     if (!core::is_in_pose(pose, {open->poses[k].position, open->poses[k].theta})) continue;

@@ -49,7 +49,8 @@ struct ParsedActions {
 std::optional<ParsedActions> parse_actions(const JsonReader& list, const ActionsOwner& owner,
                                            const WorldFrame& frame);
 
-/// See core::LoadOnTheWay. A goal that is open is served in the pose in which the robot rests first.
+/// See core::LoadOnTheWay. A goal that is open is served in the pose in which the robot rests first,
+/// if the request does not tell the pose.
 class OpenLoadOnTheWay {
  public:
   OpenLoadOnTheWay(const core::Robot& robot, const std::vector<core::OpenGoal>& open);

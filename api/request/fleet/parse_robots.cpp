@@ -20,10 +20,11 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<std::string_view, 13> kGoalMembers{"x",
+constexpr std::array<std::string_view, 14> kGoalMembers{"x",
                                                         "y",
                                                         "theta",
                                                         "any_of",
+                                                        "choice",
                                                         "service",
                                                         "not_before",
                                                         "due",
@@ -74,6 +75,21 @@ std::vector<core::Alternative> parse_any_of(const JsonReader& goal, const JsonRe
   return poses;
 }
 
+/// Reads the pose of `any_of` at which the actions of the robot serve the goal.
+std::optional<std::size_t> parse_choice(const JsonReader& goal, std::size_t poses) {
+  const JsonReader member = goal.find("choice");
+  const auto number = member.natural(kGreatestIndex);
+  if (!number || *number < poses) return number;
+  if (!goal.find("any_of")) {
+    member.fault(fault::kOutOfRange, "The goal has no any_of; leave choice out.");
+  } else if (poses > 0) {
+    member.fault(fault::kOutOfRange, [&] {
+      return "any_of of the goal has " + std::to_string(poses) + " poses, numbered from 0.";
+    });
+  }
+  return std::nullopt;
+}
+
 /// Reads what changes with the service.
 void parse_load(const JsonReader& json, core::Goal& goal) {
   goal.radius_after = json.find("radius_after").number(kLength);
@@ -95,6 +111,8 @@ void add_goal(const JsonReader& member, const WorldFrame& frame, Quota& quota, P
   } else {
     pose = parse_pose(json, frame);
   }
+  const auto choice = parse_choice(json, poses.size());
+  if (choice) pose = core::Goal{poses[*choice].position, poses[*choice].theta};
   core::Goal goal = pose.value_or(core::Goal());
   const auto service = json.find("service").number(kDuration);
   const auto not_before = json.find("not_before").number(kDuration);
@@ -113,7 +131,12 @@ void add_goal(const JsonReader& member, const WorldFrame& frame, Quota& quota, P
     read.texts.resize(read.goals.size());
     read.texts.push_back(std::move(texts));
   }
-  if (!poses.empty()) read.open.push_back({read.goals.size(), std::move(poses)});
+  if (!poses.empty()) {
+    read.open.push_back({.goal = read.goals.size(),
+                         .poses = std::move(poses),
+                         .chosen = choice.value_or(0),
+                         .is_told = choice.has_value()});
+  }
   read.goals.push_back(goal);
   read.places.push_back(member);
 }
@@ -329,9 +352,12 @@ class RobotReader {
     }
     read.placed = owner.start && traits.radius.value;
     read_goals(json, read);
+    // With its goals, the last of which its actions may serve; without any, where they end.
+    read_idle(json.find("idle"), read);
+    if (read.robot.goal) make_way(read);
     read_actions(json, owner, read);
     check_speed(read);
-    read_idle(json.find("idle"), read);
+    if (!read.robot.goal) make_way(read);
     return read;
   }
 
@@ -349,11 +375,12 @@ class RobotReader {
     read.robot.via = std::move(goals.goals);
   }
 
-  /// A robot that comes back without a goal of its own has one where its plan begins.
   static void read_idle(const JsonReader& json, ParsedRobot& read) {
-    const auto word = json.word(kIdle);
-    if (!word) return;
-    read.idle = static_cast<Idle>(*word);
+    if (const auto word = json.word(kIdle)) read.idle = static_cast<Idle>(*word);
+  }
+
+  /// A robot that comes back without a goal of its own has one where its plan begins.
+  static void make_way(ParsedRobot& read) {
     core::Robot& robot = read.robot;
     if (read.idle == Idle::yield) robot.let_yield();
     if (read.idle != Idle::come_back || robot.goal) return;
