@@ -100,7 +100,7 @@ core::Robot robot_of(const Robot& robot, const Frame& frame) {
     core::Goal& each = made.via.emplace_back();
     each.position = frame.to_core(goal.x, goal.y);
     if (goal.theta) each.theta = core::normalize_angle(*goal.theta);
-    each.service = goal.service;
+    each.service = goal.service > 0.0 ? std::max(goal.service, core::kShortestWait) : 0.0;
     each.not_before = goal.not_before;
     each.radius_after = goal.radius_after;
     each.linear_speed_after = goal.linear_speed_after;

@@ -38,11 +38,11 @@ core::Pose read_back(const core::Pose& pose, const WorldFrame& frame) {
 /// Mends what the problem of the new request has for faults, until there are none.
 class Mending {
  public:
-  Mending(AdvanceRequest& request, std::vector<core::Robot>& robots,
-          const std::vector<std::vector<Action>>& braking, core::MapCache* maps, core::Work& work)
+  Mending(AdvanceRequest& request, std::vector<core::Robot>& robots, Motions& motions, core::MapCache* maps,
+          core::Work& work)
       : request_(request),
         robots_(robots),
-        braking_(braking),
+        motions_(motions),
         work_(work),
         map_(maps != nullptr ? maps->map_of(std::move(request.fleet.map->grid), work.reading())
                              : core::static_map(std::move(request.fleet.map->grid), work.reading())),
@@ -51,9 +51,11 @@ class Mending {
 
   Circumstances run() {
     if (!map_) work_.look();
+    // Robots that go on as planned could meet walls again.
+    motions_.courses.clear();
     const std::vector<double> margins =
         margins_of(request_.robots, request_.executions, request_.moment, robots_, work_);
-    while (map_ && !work_.met() && mend_all()) clear_commitments(robots_, margins, braking_, work_);
+    while (map_ && !work_.met() && mend_all()) clear_commitments(robots_, margins, motions_, work_);
     return std::move(found_);
   }
 
@@ -159,7 +161,7 @@ class Mending {
 
   AdvanceRequest& request_;
   std::vector<core::Robot>& robots_;
-  const std::vector<std::vector<Action>>& braking_;  // by robot
+  Motions& motions_;
   core::Work& work_;
   std::shared_ptr<const core::StaticMap> map_;
   double start_overlap_;
@@ -169,22 +171,21 @@ class Mending {
 
 }  // namespace
 
-Circumstances make_acceptable(AdvanceRequest& request, std::vector<core::Robot>& robots,
-                              const std::vector<std::vector<Action>>& braking, core::MapCache* maps,
-                              core::Work& work) {
+Circumstances make_acceptable(AdvanceRequest& request, std::vector<core::Robot>& robots, Motions& motions,
+                              core::MapCache* maps, core::Work& work) {
   const bool any_observed =
       std::any_of(request.executions.begin(), request.executions.end(),
                   [](const Execution& execution) { return execution.measured || execution.reported; });
   Circumstances found;
   if (!any_observed) {
-    found.unavoidable = collisions_of_commitments(robots, braking, work);
+    found.unavoidable = collisions_of_commitments(robots, motions.braking, work);
     // Robots that could not stop in time overlap later on, whether they are observed then or not.
     const bool any_overlap = std::any_of(found.unavoidable.begin(), found.unavoidable.end(),
                                          [](const Collision& collision) { return collision.t == 0.0; });
     if (!any_overlap) return found;
   }
-  found = Mending(request, robots, braking, maps, work).run();
-  found.unavoidable = collisions_of_commitments(robots, braking, work);
+  found = Mending(request, robots, motions, maps, work).run();
+  found.unavoidable = collisions_of_commitments(robots, motions.braking, work);
   return found;
 }
 

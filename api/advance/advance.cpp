@@ -349,7 +349,15 @@ Actions braking_of(const core::Robot& robot, const Execution& execution, const M
 
 }  // namespace
 
-core::Robot advanced(const core::Robot& robot, const Execution& execution, const Moment& moment) {
+namespace {
+
+/// A robot at the moment, and all that it does if it goes on as planned.
+struct Advanced {
+  core::Robot robot;
+  Actions course;
+};
+
+Advanced advanced_with_course(const core::Robot& robot, const Execution& execution, const Moment& moment) {
   const Located located = locate(robot, execution, moment);
   Course course = moment.stand_until ? standing_course(robot, execution, located, moment)
                                      : usual_course(robot, execution, located, moment);
@@ -376,7 +384,13 @@ core::Robot advanced(const core::Robot& robot, const Execution& execution, const
     next.previous = split_at(rest.actions, course.committed_until);
     if (!is_accepted(*next.previous, next)) next.previous.reset();
   }
-  return next;
+  return {std::move(next), std::move(rest.actions)};
+}
+
+}  // namespace
+
+core::Robot advanced(const core::Robot& robot, const Execution& execution, const Moment& moment) {
+  return advanced_with_course(robot, execution, moment).robot;
 }
 
 PassedGoals passed_goals(const core::Robot& robot, const Execution& execution, const Moment& moment,
@@ -398,6 +412,15 @@ void leave_out_unfit(std::vector<core::Robot>& next, const std::vector<core::Rob
     const double progress = locate(robots[k], executions[k], moment).progress.t;
     set_other_goals(robot, goals_left(robots[k], executions[k], progress, moment.at).goals,
                     *executions[k].goals);
+  }
+}
+
+void mark_services(std::vector<core::Robot>& next, core::Work& work) {
+  for (core::Robot& robot : next) {
+    const std::size_t previous = robot.previous ? robot.previous->size() : 0;
+    if (work.met_after(kWorkOfAnAction * (1 + robot.committed.size() + previous))) return;
+    core::mark_services(robot, robot.committed, 0);
+    if (robot.previous) core::mark_services(robot, *robot.previous, 0);
   }
 }
 
@@ -459,14 +482,18 @@ std::vector<double> margins_of(const std::vector<core::Robot>& robots,
 
 std::vector<core::Robot> advanced(const std::vector<core::Robot>& robots,
                                   const std::vector<Execution>& executions, const Moment& moment,
-                                  const std::vector<Actions>& braking, core::Work& work) {
+                                  Motions& motions, core::Work& work) {
   std::vector<core::Robot> next;
   next.reserve(robots.size());
+  motions.courses.resize(robots.size());
   for (std::size_t k = 0; k < robots.size(); ++k) {
     if (work.met_after(kWorkOfAnAction * (1 + executions[k].actions.size()))) return next;
-    next.push_back(advanced(robots[k], executions[k], moment));
+    auto [robot, course] = advanced_with_course(robots[k], executions[k], moment);
+    next.push_back(std::move(robot));
+    // What is held or has been released goes no further.
+    if (!moment.stand_until && !executions[k].hold) motions.courses[k] = std::move(course);
   }
-  clear_commitments(next, margins_of(robots, executions, moment, next, work), braking, work);
+  clear_commitments(next, margins_of(robots, executions, moment, next, work), motions, work);
   return next;
 }
 

@@ -75,6 +75,9 @@ void leave_out_unfit(std::vector<core::Robot>& next, const std::vector<core::Rob
 /// It has no previous actions if it has no plan, is elsewhere than planned, or gets other goals.
 core::Robot advanced(const core::Robot& robot, const Execution& execution, const Moment& moment);
 
+/// Says of the committed and previous waits of the robots which goals they serve, see core::mark_services.
+void mark_services(std::vector<core::Robot>& next, core::Work& work);
+
 /// Returns by robot what one that drives at the moment cannot leave out, on the clock of the moment: its
 /// motion until it can stand, which it can after its stop distance, and where its plan has it stand. Empty
 /// for one that stands, by its plan or because it says so, turns, or is not on its path.
@@ -113,22 +116,32 @@ std::vector<Collision> collisions_of_commitments(const std::vector<core::Robot>&
                                                  const std::vector<std::vector<core::Action>>& braking,
                                                  core::Work& work);
 
+/// What commitments are judged by, on the clock of the moment.
+struct Motions {
+  std::vector<std::vector<core::Action>> braking;       // by robot, see braking_of
+  std::vector<std::vector<core::Action>> courses = {};  // by robot: all that it does if it goes on as planned
+  std::vector<core::MovingObstacle> obstacles = {};
+};
+
 /// Ends committed actions early, so that every robot may stay for ever where its commitment ends: none meets
 /// another one, nor passes where another one has ended. Whatever becomes of the plans behind the commitments,
 /// nobody then drives into a robot that stands. Robots are only stopped while they drive; a wait stays
 /// committed. `margins`: metres, by robot, that they keep around their disks; robots that are nearer to each
-/// other at the moment keep half of what they have, or a quarter of the margins if they have that. `braking`:
-/// by robot, see braking_of; none of these commitments ends before, unless it collides with another
-/// commitment. Ends early when `work` is met.
-void clear_commitments(std::vector<core::Robot>& robots, const std::vector<double>& margins,
-                       const std::vector<std::vector<core::Action>>& braking, core::Work& work);
+/// other at the moment keep half of what they have, or a quarter of the margins if they have that.
+/// None of these commitments ends before the braking of its robot, unless it collides with another
+/// commitment. Where two robots meet that cannot stop in time, although they would not if they went on as
+/// planned, they are committed to that as far as it takes, which is their braking from then on. First,
+/// a commitment that leads into an obstacle ends where the robot can stop at last without touching any until
+/// it stands, or else as soon as it can. Ends early when `work` is met.
+void clear_commitments(std::vector<core::Robot>& robots, const std::vector<double>& margins, Motions& motions,
+                       core::Work& work);
 
 /// Returns the robots of the request of that moment. Committed actions end where they touch another robot
-/// that is committed or stands at the end of its commitment: see clear_commitments. `braking`: by robot, see
-/// braking_of.
+/// that is committed or stands at the end of its commitment, or an obstacle: see clear_commitments. `motions`
+/// without courses, which are found here.
 std::vector<core::Robot> advanced(const std::vector<core::Robot>& robots,
                                   const std::vector<Execution>& executions, const Moment& moment,
-                                  const std::vector<std::vector<core::Action>>& braking, core::Work& work);
+                                  Motions& motions, core::Work& work);
 
 /// Returns where the robot is in its actions at the moment: as reported, otherwise as measured, otherwise as
 /// planned. A robot that has done all of them is at the end of the last one, and one without actions at the
@@ -237,6 +250,9 @@ std::vector<core::Action> split_at(const std::vector<core::Action>& actions, dou
 /// the speed that the robot has then.
 core::Action part_until(core::Action action, double t);
 core::Action part_from(core::Action action, double t);
+
+/// Returns what is left of an action at a time within it: metres, radians, or seconds of a wait.
+double left_of(const core::Action& action, double t);
 
 /// Returns the actions, the last of which come to rest: as fast as they can, if they end at a speed.
 std::vector<core::Action> at_rest_in_the_end(std::vector<core::Action> actions);

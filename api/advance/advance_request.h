@@ -52,11 +52,10 @@ struct Circumstances {
 
 /// Ends committed actions of robots that were measured, or have reported where they are, before they meet
 /// walls or zones, or break the rules of zones, as /v1/plan judges it; then those of others that would drive
-/// into them, see clear_commitments. `request`: that the robots follow from, whose map is taken. `braking`:
-/// by robot, see braking_of. `maps`: those of earlier requests; may be null. Ends early when `work` is met.
-Circumstances make_acceptable(AdvanceRequest& request, std::vector<core::Robot>& robots,
-                              const std::vector<std::vector<core::Action>>& braking, core::MapCache* maps,
-                              core::Work& work);
+/// into them, see clear_commitments. `request`: that the robots follow from, whose map is taken. `maps`:
+/// those of earlier requests; may be null. Ends early when `work` is met.
+Circumstances make_acceptable(AdvanceRequest& request, std::vector<core::Robot>& robots, Motions& motions,
+                              core::MapCache* maps, core::Work& work);
 
 /// Returns the request of the moment: that of the body with the starts, goals, committed and previous actions
 /// of these robots, what is left of its obstacles, and the options that it needs where they are; everything

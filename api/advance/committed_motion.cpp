@@ -1,248 +1,21 @@
-// The motion of robots that execute nothing but their commitments, in pieces of straight motion and rest;
-// which of them collide then; and commitments that end early, so that none do.
+// Commitments that end early, or late, so that robots that execute nothing else do not collide.
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
 
 #include "api/advance/advance.h"
-#include "core/geometry/disk_motion.h"
+#include "api/advance/pieces.h"
 #include "core/geometry/position.h"
 #include "core/geometry/tolerance.h"
-#include "core/model/itinerary.h"
 #include "core/model/loads.h"
 
 namespace fleetplan::api {
 
 using core::Position;
-
-namespace {
-
-/// Metres: two disks that come nearer by less do not; far above rounding.
-constexpr double kNearer = 1e-9;
-
-/// Copying a piece, or comparing two, is as much work as reading so many bytes.
-constexpr std::size_t kWorkOfAPiece = 64;
-
-/// A piece of straight motion or rest.
-struct Piece {
-  double begin;
-  double end;
-  core::Position from;
-  core::Position velocity;  // the mean
-  double radius = 0.0;      // of the bare disk
-  bool grows = false;       // it is smaller before
-  double ramp = 0.0;        // see core::TimedSegment
-
-  core::Position at(double t) const {
-    return ramp == 0.0 ? core::Position(from + velocity * (t - begin)) : disk().at(t);
-  }
-  core::MovingDisk disk() const {
-    core::MovingDisk disk;
-    disk.from = from;
-    disk.velocity = velocity;
-    disk.t_start = begin;
-    disk.t_end = end;
-    disk.ramp = ramp;
-    return disk;
-  }
-  bool moves() const { return velocity.squaredNorm() > 0.0; }
-};
-
-/// Returns the pieces of the commitment, and then the stay at its end, which has no end.
-std::vector<Piece> committed_pieces(const core::Robot& robot) {
-  std::vector<core::RadiusStep> steps;
-  if (core::changes_radius(robot)) {
-    steps = core::radius_steps(robot, core::itinerary_of(robot).visited);
-  }
-  std::vector<Piece> pieces;
-  double radius = robot.radius;
-  auto step = steps.begin();
-  // Bounded: the changes of radius of one robot, each once.
-  const auto add = [&](Piece piece) {
-    for (; step != steps.end() && step->t < piece.end; ++step) {
-      if (step->t > piece.begin) {
-        pieces.push_back({.begin = piece.begin,
-                          .end = step->t,
-                          .from = piece.from,
-                          .velocity = piece.velocity,
-                          .radius = radius,
-                          .grows = piece.grows});
-        piece.from = piece.at(step->t);
-        piece.begin = step->t;
-      }
-      piece.grows = step->radius > radius;
-      radius = step->radius;
-    }
-    piece.radius = radius;
-    pieces.push_back(piece);
-  };
-  for (const core::Action& action : robot.committed) {
-    const double duration = action.t_end - action.t_start;
-    const Position path = action.to.position - action.from.position;
-    const Position velocity = duration > 0.0 ? Position(path / duration) : Position(0.0, 0.0);
-    if (action.profile && path.squaredNorm() > 0.0 && duration > 0.0) {
-      const core::TimedSegment move{{action.from.position, action.to.position}, action.t_start, action.t_end};
-      for (const core::TimedSegment& phase : core::phases(move, *action.profile)) {
-        add({.begin = phase.t_start,
-             .end = phase.t_end,
-             .from = phase.path.from,
-             .velocity = phase.velocity(),
-             .ramp = phase.ramp});
-      }
-      continue;
-    }
-    add({action.t_start, action.t_end, action.from.position, velocity});
-  }
-  add({robot.committed_until(),
-       std::numeric_limits<double>::infinity(),
-       robot.committed_end().position,
-       {0.0, 0.0}});
-  return pieces;
-}
-
-/// Returns when two pieces begin to be nearer than a distance, in the time of both; at the beginning of that
-/// time if they are nearer then and come nearer.
-std::optional<double> first_overlap(const Piece& a, const Piece& b, double distance) {
-  const double begin = std::max(a.begin, b.begin);
-  const double end = std::min(a.end, b.end);
-  if (begin > end) return std::nullopt;
-  const Position apart = a.at(begin) - b.at(begin);
-  if (a.ramp != 0.0 || b.ramp != 0.0) {
-    // Disks that are too near already may go on, but not come nearer.
-    const auto met = core::overlap(a.disk(), b.disk(), std::min(distance, apart.norm() - kNearer));
-    return met && met->begin < end ? std::optional(met->begin) : std::nullopt;
-  }
-  const Position velocity = a.velocity - b.velocity;
-  const double closing = apart.dot(velocity);
-  if (closing >= 0.0) return std::nullopt;
-  const double gap = apart.squaredNorm() - distance * distance;
-  if (gap < 0.0) return begin;
-  const double speed = velocity.squaredNorm();
-  const double under_root = closing * closing - speed * gap;
-  if (under_root <= 0.0) return std::nullopt;
-  const double t = begin + gap / (-closing + std::sqrt(under_root));
-  return t < end ? std::optional(t) : std::nullopt;
-}
-
-/// Calls visit(piece, other) for the pieces of two robots whose times overlap, in the order of time, until it
-/// returns true or `work` is met.
-template <class Visit>
-void visit_in_time(std::span<const Piece> pieces, std::span<const Piece> others, core::Work& work,
-                   const Visit& visit) {
-  std::size_t i = 0;
-  for (std::size_t k = 0; k < pieces.size() && i < others.size();) {
-    if (work.met_after(kWorkOfAPiece) || visit(pieces[k], others[i])) return;
-    others[i].end < pieces[k].end ? ++i : ++k;
-  }
-}
-
-/// Pairs that are listed; where more overlap, nobody reads all of them.
-constexpr std::size_t kMostPairs = 10'000;
-
-/// A commitment that cannot end there ends by so much before disks overlap, at most (seconds).
-constexpr double kLater = 1e-2;
-
-/// What a robot does that executes its commitment, and then stands.
-struct Stopping {
-  std::vector<Piece> committed;
-  std::vector<Piece> braking;  // instead, if it cannot stand where its commitment ends; otherwise none
-  double reach = 0.0;          // metres, from its start, with its disk
-  bool brakes = false;
-  double until = 0.0;  // seconds; how it brakes after that is after a collision, and not known
-};
-
-double length(const std::vector<core::Action>& actions) {
-  double metres = 0.0;
-  for (const core::Action& action : actions) metres += (action.to.position - action.from.position).norm();
-  return metres;
-}
-
-Stopping stopping(const core::Robot& robot, const std::vector<core::Action>& braking) {
-  Stopping made;
-  made.committed = committed_pieces(robot);
-  made.brakes = !braking.empty();
-  made.until = std::numeric_limits<double>::infinity();
-  double driven = length(robot.committed);
-  if (made.brakes && braking.back().t_end > robot.committed_until()) {
-    if (braking.back().t_end > robot.committed_until() + kLater)
-      made.until = robot.committed_until() + kLater;
-    core::Robot brakes = robot;
-    brakes.committed = braking;
-    made.braking = committed_pieces(brakes);
-    driven = std::max(driven, length(braking));
-  }
-  made.reach = core::largest_radius(robot) + driven;
-  return made;
-}
-
-class CollisionSearch {
- public:
-  CollisionSearch(const std::vector<core::Robot>& robots, core::Work& work) : robots_(robots), work_(work) {}
-
-  void add(Stopping robot) { stopping_.push_back(std::move(robot)); }
-
-  std::vector<Collision> run() {
-    std::vector<Collision> found;
-    for (std::size_t i = 0; i < stopping_.size(); ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
-        if (work_.met_after(1) || found.size() >= kMostPairs) return found;
-        if (const auto t = begin_of_overlap(j, i)) found.push_back({j, i, *t});
-      }
-    }
-    return found;
-  }
-
- private:
-  std::optional<double> begin_of_overlap(std::size_t first, std::size_t second) {
-    const core::Robot& a = robots_[first];
-    const core::Robot& b = robots_[second];
-    const double reach = a.radius + b.radius - core::kContactTolerance;
-    const double apart = (a.start.position - b.start.position).norm();
-    if (reach > 0.0 && apart < reach) return 0.0;
-    const Stopping& mine = stopping_[first];
-    const Stopping& theirs = stopping_[second];
-    if (!(mine.brakes || theirs.brakes) || apart > mine.reach + theirs.reach) return std::nullopt;
-    if (!mine.braking.empty() || !theirs.braking.empty()) {
-      const auto braked = [](const Stopping& robot) -> const std::vector<Piece>& {
-        return robot.braking.empty() ? robot.committed : robot.braking;
-      };
-      const auto t = first_contact(braked(mine), braked(theirs));
-      if (t && *t <= std::min(mine.until, theirs.until)) return t;
-    }
-    return first_contact(mine.committed, theirs.committed);
-  }
-
-  std::optional<double> first_contact(const std::vector<Piece>& mine, const std::vector<Piece>& theirs) {
-    std::optional<double> contact;
-    visit_in_time(mine, theirs, work_, [&](const Piece& piece, const Piece& other) {
-      contact = first_overlap(piece, other, piece.radius + other.radius - core::kContactTolerance);
-      return contact.has_value();
-    });
-    return contact;
-  }
-
-  const std::vector<core::Robot>& robots_;
-  core::Work& work_;
-  std::vector<Stopping> stopping_;  // by robot
-};
-
-}  // namespace
-
-std::vector<Collision> collisions_of_commitments(const std::vector<core::Robot>& robots,
-                                                 const std::vector<std::vector<core::Action>>& braking,
-                                                 core::Work& work) {
-  CollisionSearch search(robots, work);
-  for (std::size_t k = 0; k < robots.size(); ++k) {
-    if (work.met_after(kWorkOfAPiece * (1 + robots[k].committed.size()))) return {};
-    search.add(stopping(robots[k], braking[k]));
-  }
-  return search.run();
-}
 
 namespace {
 
@@ -286,17 +59,21 @@ std::optional<Meeting> overlap_by_growth(const Piece& a, const Piece& b, double 
 
 class Clearing {
  public:
-  Clearing(std::vector<core::Robot>& robots, const std::vector<double>& margins,
-           const std::vector<Actions>& braking, core::Work& work)
-      : robots_(robots), margins_(margins), braking_(braking), work_(work), waits_(robots.size(), true) {
+  Clearing(std::vector<core::Robot>& robots, const std::vector<double>& margins, Motions& motions,
+           core::Work& work)
+      : robots_(robots), margins_(margins), motions_(motions), work_(work), waits_(robots.size(), true) {
     for (const core::Robot& robot : robots) {
-      reach_.push_back(core::largest_radius(robot) + margins[pieces_.size()] + driven(robot));
+      reach_.push_back(core::largest_radius(robot) + margins[pieces_.size()] + driven(robot.committed));
       waiting_.push_back(pieces_.size());
       pieces_.push_back(committed_pieces(robot));
     }
+    for (const core::MovingObstacle& obstacle : motions.obstacles) obstacles_.push_back(pieces_of(obstacle));
   }
 
   void run() {
+    for (std::size_t robot = 0; robot < robots_.size() && !obstacles_.empty(); ++robot) {
+      stop_before_obstacles(robot);
+    }
     while (!waiting_.empty()) {
       const std::size_t robot = waiting_.back();
       waiting_.pop_back();
@@ -309,10 +86,10 @@ class Clearing {
   }
 
  private:
-  /// The length of the committed path.
-  static double driven(const core::Robot& robot) {
+  /// The length of the path.
+  static double driven(const Actions& actions) {
     double length = 0.0;
-    for (const Action& action : robot.committed) length += (action.to.position - action.from.position).norm();
+    for (const Action& action : actions) length += (action.to.position - action.from.position).norm();
     return length;
   }
 
@@ -342,12 +119,13 @@ class Clearing {
 
   /// Until when a robot that drives at the moment cannot stop, seconds; 0 if it stands.
   double cannot_stop_before(std::size_t index) const {
-    return index < braking_.size() && !braking_[index].empty() ? braking_[index].back().t_end : 0.0;
+    const std::vector<Actions>& braking = motions_.braking;
+    return index < braking.size() && !braking[index].empty() ? braking[index].back().t_end : 0.0;
   }
 
   /// Stops both where they begin to be too near while the other one is committed, or as soon as they can.
-  /// Where that is too late, their commitments end where their disks touch, if both are certain to be there:
-  /// POST /v1/plan refuses commitments that collide.
+  /// Where that is too late, they go on as planned, if that is better; otherwise their commitments end where
+  /// their disks touch, if both are certain to be there: POST /v1/plan refuses commitments that collide.
   void part(std::size_t robot, std::size_t other) {
     if (pieces_[other].size() == 1 || !may_meet(robot, other)) return;
     if (const auto meeting = first_meeting(robot, other)) {
@@ -357,6 +135,10 @@ class Clearing {
     if (cannot_stop_before(robot) == 0.0 && cannot_stop_before(other) == 0.0) return;
     give_way(robot, other);
     give_way(other, robot);
+    // Plans may pass a robot that stands within its margin.
+    for (const double margin : {this->margin(robot, other), 0.0}) {
+      if (!keep_apart(pieces_[robot], pieces_[other], margin) && drive_on(robot, other, margin)) return;
+    }
     if (const auto contact = first_contact(robot, other)) {
       if (contact->first_moves) cut(robot, contact->t);
       if (contact->second_moves) cut(other, contact->t);
@@ -393,6 +175,172 @@ class Clearing {
     return std::none_of(pieces_[other].begin(), pieces_[other].end(), [&](const Piece& piece) {
       return first_overlap(piece, stay, piece.radius + stay.radius + margin).has_value();
     });
+  }
+
+  /// Whether two robots that do this and then stand are never too near, nor become so by their loads.
+  bool keep_apart(const std::vector<Piece>& mine, const std::vector<Piece>& theirs, double margin) {
+    bool do_meet = false;
+    visit_in_time(std::span(mine), std::span(theirs), work_, [&](const Piece& piece, const Piece& other) {
+      // Less than where one has stopped already that can.
+      const double distance = piece.radius + other.radius + margin - 2.0 * kTouch;
+      do_meet = overlap_by_growth(piece, other, distance) || first_overlap(piece, other, distance);
+      return do_meet;
+    });
+    return !do_meet;
+  }
+
+  /// Commits two robots, of which one cannot stop, to more of what they do as planned: one of them if that is
+  /// enough, to where it stands by its plan. Returns false if they meet nevertheless.
+  bool drive_on(std::size_t robot, std::size_t other, double margin) {
+    std::size_t mine = 0;  // actions of its course; 0 for the commitment as it is
+    std::size_t theirs = 0;
+    while (!work_.met()) {
+      const std::size_t my_next = next_stop(robot, mine);
+      const std::size_t their_next = next_stop(other, theirs);
+      if (my_next > mine && parts(robot, my_next, other, theirs, margin))
+        return go_on(robot, my_next, other, theirs);
+      if (their_next > theirs && parts(robot, mine, other, their_next, margin))
+        return go_on(robot, mine, other, their_next);
+      if (my_next == mine && their_next == theirs) return false;
+      const bool both = my_next > mine && their_next > theirs;
+      mine = my_next;
+      theirs = their_next;
+      if (both && parts(robot, mine, other, theirs, margin)) return go_on(robot, mine, other, theirs);
+    }
+    return false;
+  }
+
+  /// The first actions of a robot's course, more than `count` and than what it is committed to, at whose end
+  /// it has driven and stands; `count` if there are none.
+  std::size_t next_stop(std::size_t index, std::size_t count) const {
+    if (index >= motions_.courses.size()) return count;
+    const Actions& course = motions_.courses[index];
+    for (std::size_t k = count; k < course.size(); ++k) {
+      const bool stands = course[k].type == Action::Type::translate &&
+                          (k + 1 == course.size() || !goes_on(course[k], course[k + 1]));
+      if (stands && course[k].t_end > robots_[index].committed_until() + kSameEnd) return k + 1;
+    }
+    return count;
+  }
+
+  Actions first_of_course(std::size_t index, std::size_t count) const {
+    const auto begin = motions_.courses[index].begin();
+    return {begin, begin + static_cast<std::ptrdiff_t>(count)};
+  }
+
+  /// The pieces of a robot that is committed to these actions.
+  std::vector<Piece> pieces_if(std::size_t index, Actions committed) {
+    work_.met_after(kWorkOfAnAction * (1 + committed.size()));
+    core::Robot robot = robots_[index];
+    robot.previous.reset();
+    robot.committed = std::move(committed);
+    return committed_pieces(robot);
+  }
+
+  /// Whether two robots keep apart, and clear of obstacles, if they go on for so many actions of their
+  /// courses. One that does not go on may stop as soon as it can.
+  bool parts(std::size_t robot, std::size_t mine, std::size_t other, std::size_t theirs, double margin) {
+    const auto pieces = [&](std::size_t index, std::size_t count) {
+      return count > 0 ? pieces_if(index, first_of_course(index, count)) : pieces_[index];
+    };
+    const std::vector<Piece> my_pieces = pieces(robot, mine);
+    const std::vector<Piece> their_pieces = pieces(other, theirs);
+    if ((mine > 0 && first_touch(my_pieces)) || (theirs > 0 && first_touch(their_pieces))) return false;
+    if (keep_apart(my_pieces, their_pieces, margin)) return true;
+    const auto stopped = [&](std::size_t index) {
+      const std::vector<Actions>& braking = motions_.braking;
+      return pieces_if(index, index < braking.size() ? braking[index] : Actions());
+    };
+    if (mine == 0) return keep_apart(stopped(robot), their_pieces, margin);
+    return theirs == 0 && keep_apart(my_pieces, stopped(other), margin);
+  }
+
+  bool go_on(std::size_t robot, std::size_t mine, std::size_t other, std::size_t theirs) {
+    if (mine > 0) commit_to(robot, mine);
+    if (theirs > 0) commit_to(other, theirs);
+    return true;
+  }
+
+  /// Commits a robot to the first actions of its course. It does not stop before.
+  void commit_to(std::size_t index, std::size_t count) {
+    core::Robot& robot = robots_[index];
+    robot.committed = first_of_course(index, count);
+    if (robot.previous) robot.previous = motions_.courses[index];
+    motions_.braking.resize(robots_.size());
+    motions_.braking[index] = robot.committed;
+    pieces_[index] = committed_pieces(robot);
+    reach_[index] = core::largest_radius(robot) + margins_[index] + driven(robot.committed);
+    for (std::size_t k = 0; k < robots_.size(); ++k) {
+      if (k == index || may_meet(k, index)) compare_again(k);
+    }
+  }
+
+  void compare_again(std::size_t index) {
+    if (waits_[index]) return;
+    waits_[index] = true;
+    waiting_.push_back(index);
+  }
+
+  /// When a robot that does this touches an obstacle, before it stands in the end.
+  std::optional<double> first_touch(const std::vector<Piece>& pieces) {
+    const auto moves = [](const Piece& piece) { return piece.moves(); };
+    const auto end = std::find_if(pieces.rbegin(), pieces.rend(), moves).base();
+    const std::span<const Piece> driven(pieces.begin(), end);
+    std::optional<double> first;
+    for (const std::vector<Piece>& obstacle : obstacles_) {
+      visit_in_time(driven, std::span(obstacle), work_, [&](const Piece& piece, const Piece& other) {
+        const auto t = first_overlap(piece, other, piece.radius + other.radius - kTouch);
+        if (t) first = std::min(*t, first.value_or(*t));
+        return t.has_value();
+      });
+    }
+    return first;
+  }
+
+  /// Ends a commitment where the robot can stop at last before it touches an obstacle. Where it can nowhere,
+  /// it goes on as planned, if that is better, or stops as soon as it can.
+  void stop_before_obstacles(std::size_t index) {
+    const std::optional<double> touch = first_touch(pieces_[index]);
+    if (!touch) return;
+    const double earliest = cannot_stop_before(index);
+    if (!robots_[index].linear_inertia().is_limited)
+      return cut(index, std::max(earliest, rest_before(index, *touch)));
+    constexpr int kTries = 64;     // of times at which it may stand
+    constexpr int kHalvings = 40;  // between two of them
+    const auto is_clear = [&](double t) {
+      return !first_touch(pieces_if(index, stopped_by(robots_[index].committed, t)));
+    };
+    double late = robots_[index].committed_until();
+    const double step = (late - earliest) / kTries;
+    double early = late;
+    for (int k = 0; k < kTries && !work_.met(); ++k) {
+      early = k + 1 < kTries ? early - step : earliest;
+      if (is_clear(early)) break;
+      late = early;
+    }
+    if (late == early) {
+      const std::size_t stop = next_stop(index, 0);
+      if (stop > 0 && !first_touch(pieces_if(index, first_of_course(index, stop)))) {
+        return commit_to(index, stop);
+      }
+      return cut(index, earliest);
+    }
+    for (int k = 0; k < kHalvings && !work_.met(); ++k) {
+      const double middle = 0.5 * (early + late);
+      (is_clear(middle) ? early : late) = middle;
+    }
+    cut(index, early);
+  }
+
+  /// The time, or if the robot stands then, when it has stopped.
+  double rest_before(std::size_t index, double t) const {
+    double stopped = 0.0;
+    for (const Action& action : robots_[index].committed) {
+      if (action.type != Action::Type::translate) continue;
+      if (action.t_start < t && t <= action.t_end) return t;
+      if (action.t_end < t) stopped = action.t_end;
+    }
+    return stopped;
   }
 
   double when_it_can_stop(std::size_t index, double t) const {
@@ -469,9 +417,7 @@ class Clearing {
       if (robot.previous) robot.previous = split_at(*robot.previous, t);
     }
     pieces_[index] = committed_pieces(robot);
-    if (waits_[index]) return;
-    waits_[index] = true;
-    waiting_.push_back(index);
+    compare_again(index);
   }
 
   /// A robot that cannot stop before it touches another one: what is known of its motion ends there.
@@ -482,10 +428,11 @@ class Clearing {
   }
 
   std::vector<core::Robot>& robots_;
-  const std::vector<double>& margins_;   // by robot
-  const std::vector<Actions>& braking_;  // by robot
+  const std::vector<double>& margins_;  // by robot
+  Motions& motions_;
   core::Work& work_;
-  std::vector<std::vector<Piece>> pieces_;
+  std::vector<std::vector<Piece>> pieces_;     // by robot
+  std::vector<std::vector<Piece>> obstacles_;  // by obstacle
   std::vector<double> reach_;  // from the start, with disk and margin; of the commitment as it was
   std::vector<bool> waits_;    // for its comparison with all others
   std::vector<std::size_t> waiting_;
@@ -493,9 +440,9 @@ class Clearing {
 
 }  // namespace
 
-void clear_commitments(std::vector<core::Robot>& robots, const std::vector<double>& margins,
-                       const std::vector<std::vector<Action>>& braking, core::Work& work) {
-  Clearing(robots, margins, braking, work).run();
+void clear_commitments(std::vector<core::Robot>& robots, const std::vector<double>& margins, Motions& motions,
+                       core::Work& work) {
+  Clearing(robots, margins, motions, work).run();
 }
 
 }  // namespace fleetplan::api

@@ -20,7 +20,7 @@ using Actions = std::vector<Action>;
 constexpr double kRoundedTime = 1e-9;
 
 /// An action that has less left is done (metres or radians).
-constexpr double kLeft = 1e-9;
+constexpr double kLeft = core::kLeastAction;
 
 /// Whether the robot goes on at speed after this action.
 bool ends_at_speed(const Action& action) { return action.profile && action.profile->end > 0.0; }
@@ -42,7 +42,7 @@ void brake(Actions& driven, const Actions& actions, std::size_t index) {
     const double covered = (last.to.position - planned.from.position).norm();
     const double speed = last.profile->end;
     const double needed = 0.5 * speed * speed * inertia.fall;
-    if (covered + needed <= whole || end_of_chain(actions, index) == index + 1) {
+    if (covered + needed <= whole + kLeft || end_of_chain(actions, index) == index + 1) {
       const double share = covered + needed < whole ? (covered + needed) / whole : 1.0;
       last.to.position =
           share < 1.0 ? core::Position(planned.from.position + share * way) : planned.to.position;
@@ -81,7 +81,33 @@ double brakes_from(const Actions& chain, double t) {
   return chain.back().t_end;
 }
 
+/// The time at which actions are cut: the begin or the end of the action under way, if there is less of it on
+/// that side than an action has.
+double cut_time(const Actions& actions, double t) {
+  for (const Action& action : actions) {
+    if (t <= action.t_start || t >= action.t_end) continue;
+    if (left_of(action, t) < core::kLeastAction) return action.t_end;
+    const Action done = part_until(action, t);
+    const bool waits = action.type == Action::Type::wait;
+    if ((waits ? t - action.t_start : core::amount_of(done)) < core::kLeastAction) return action.t_start;
+  }
+  return t;
+}
+
+/// The length of the last actions that follow each other at speed.
+double length_of_last(const Actions& actions) {
+  double length = 0.0;
+  for (std::size_t k = begin_of_chain(actions, actions.size() - 1); k < actions.size(); ++k) {
+    length += core::amount_of(actions[k]);
+  }
+  return length;
+}
+
 }  // namespace
+
+double left_of(const Action& action, double t) {
+  return action.type == Action::Type::wait ? action.t_end - t : core::amount_of(part_from(action, t));
+}
 
 Action part_until(Action action, double t) {
   const core::Pose to = pose_at(action, t);
@@ -136,6 +162,7 @@ Actions at_rest_in_the_end(Actions actions) {
 }
 
 Actions executed_until(const Actions& actions, double t) {
+  t = cut_time(actions, t);
   Actions done;
   for (const Action& action : actions) {
     if (action.t_start >= t - kRoundedTime) break;
@@ -156,12 +183,24 @@ Actions braked(const Actions& actions, double t) {
     driven.push_back(under_way);
     return driven;
   }
+  const Actions before = driven;
+  // One that is hardly under way brakes later, so that it drives for more than nothing.
+  constexpr double kLater = 1e-6;  // seconds
+  for (double later = 0.0; t + later < under_way.t_end; later = std::max(kLater, 2.0 * later)) {
+    driven = before;
+    driven.push_back(part_until(under_way, std::max(t, under_way.t_start) + later));
+    brake(driven, actions, index);
+    if (length_of_last(driven) >= core::kLeastAction) return driven;
+    if (under_way.profile->start <= 0.0) return before;
+  }
+  driven = before;
   driven.push_back(part_until(under_way, std::max(t, under_way.t_start)));
   brake(driven, actions, index);
   return driven;
 }
 
 Actions stopped_by(const Actions& actions, double t) {
+  t = cut_time(actions, t);
   std::size_t index = 0;
   while (index < actions.size() && actions[index].t_end <= t + kRoundedTime) ++index;
   const bool is_cut = index < actions.size() && actions[index].t_start < t - kRoundedTime;

@@ -71,11 +71,10 @@ class Waits {
     return action.type == Action::Type::wait && !serves && purposes_[index].least <= 0.0;
   }
 
-  /// Seconds that the action takes at least. A wait until its goal may be served takes as long as planned.
+  /// Seconds that the action takes at least. A wait may begin before its goal can be served.
   double duration(std::size_t index, const Action& part) const {
     const double planned = part.t_end - part.t_start;
-    if (part.type != Action::Type::wait || purposes_[index].not_before > 0.0) return planned;
-    return std::min(planned, purposes_[index].least);
+    return part.type == Action::Type::wait ? std::min(planned, purposes_[index].least) : planned;
   }
 
  private:
@@ -103,6 +102,29 @@ void pack(Actions& actions, std::size_t first, const Waits& waits, double t_end)
   }
 }
 
+/// Whether a wait is released in part.
+bool is_cut_wait(const Actions& actions, const ActionPlace& place) {
+  return actions[place.action].type == Action::Type::wait && place.fraction > 0.0 && place.fraction < 1.0;
+}
+
+/// Lets the waits for goals among the actions from `first` to `end` last until these have been served. The
+/// clock of the actions is `at` at their beginning.
+void serve_in_time(const core::Robot& robot, Actions& actions, std::size_t first, std::size_t end,
+                   double at) {
+  double late = 0.0;
+  for (std::size_t k = first; k < actions.size(); ++k) {
+    Action& action = actions[k];
+    action.t_start += late;
+    action.t_end += late;
+    const bool serves = action.goal && *action.goal < robot.goal_count();
+    if (action.type != Action::Type::wait || !serves || k >= end) continue;
+    const double begin = std::max(action.t_start, robot.goal_at(*action.goal).not_before - at);
+    const double later = begin - action.t_start;
+    action.t_end += later;
+    late += later;
+  }
+}
+
 }  // namespace
 
 ReleasedRest released_rest(const core::Robot& robot, const Execution& execution, const Moment& moment) {
@@ -122,7 +144,14 @@ ReleasedRest released_rest(const core::Robot& robot, const Execution& execution,
   }
   pack(until.actions, place.action + 1, waits, moment.at);  // late, so that they follow each other
   const TimedProgress progress = reported_progress(until.actions, *until.reported);
-  return {remainder_of_reported(robot, until, progress, moment.at), std::move(after)};
+  Remainder rest = remainder_of_reported(robot, until, progress, moment.at);
+  // The wait under way takes what is left of it already; one that is cut is only released so far.
+  const std::size_t begins = until.actions[place.action].type == Action::Type::wait ? 1 : 0;
+  const bool ends_in_wait = is_cut_wait(execution.actions, released);
+  if (rest.actions.size() > begins) {
+    serve_in_time(robot, rest.actions, begins, rest.actions.size() - (ends_in_wait ? 1 : 0), moment.at);
+  }
+  return {std::move(rest), std::move(after)};
 }
 
 }  // namespace fleetplan::api

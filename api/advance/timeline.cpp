@@ -109,7 +109,7 @@ void turn_back(Actions& driven, Actions& following, double planned_heading, cons
     return;
   }
   const double angle = core::angle_between(last.to.theta, planned_heading);
-  if (angle <= core::kSameHeading) return;
+  if (angle < core::kLeastAction) return;
   const double end = last.t_end + inertia.time(angle, angular_speed);
   driven.push_back({Action::Type::rotate, last.t_end, end, last.to, {last.to.position, planned_heading}});
   if (inertia.is_limited) driven.back().profile = core::fastest_profile(angle, angular_speed, inertia);
@@ -139,7 +139,7 @@ std::optional<Action> continued(const core::Robot& robot, double linear_speed, A
     action.to.theta = action.from.theta;
   } else if (action.type == Action::Type::rotate) {
     const double angle = std::abs(core::rotation_between(pose.theta, action.to.theta));
-    const bool has_turned = angle <= core::kSameHeading || turn(action) == 0.0;
+    const bool has_turned = angle < core::kLeastAction || turn(action) == 0.0;
     left = has_turned ? 0.0 : scaled(duration, std::abs(turn(action)), angle, robot.angular_speed);
     action.from.theta = pose.theta;
   }
@@ -253,7 +253,10 @@ Pose pose_at(const Action& action, double t) {
 
 TimedProgress planned_progress(const Actions& actions, double at) {
   std::size_t index = 0;
-  while (index < actions.size() && actions[index].t_end <= at + kDone) ++index;
+  const auto is_done = [&](const Action& action) {
+    return action.t_end <= at + kDone || (at > action.t_start && left_of(action, at) < core::kLeastAction);
+  };
+  while (index < actions.size() && is_done(actions[index])) ++index;
   return {index, at};
 }
 
@@ -298,8 +301,15 @@ Remainder remainder(const core::Robot& robot, const Actions& actions, double at)
   const std::size_t under_way = planned_progress(actions, at).action;
   Remainder rest{planned_pose(robot, actions, at), {}};
   if (under_way == actions.size()) return rest;
-  Action action = part_from(actions[under_way], std::max(at, actions[under_way].t_start));
-  action.t_start = 0.0;
+  const Action& planned = actions[under_way];
+  Action action = part_from(planned, std::max(at, planned.t_start));
+  // Hardly anything is left of the one before, which is done: this one begins, unless it stood in between.
+  const bool begins_later =
+      at < planned.t_start && under_way > 0 && !goes_on(actions[under_way - 1], planned);
+  if (begins_later && planned.type != Action::Type::wait && planned.t_start - at >= core::kLeastAction) {
+    rest.actions.push_back({Action::Type::wait, 0.0, planned.t_start - at, rest.start, rest.start});
+  }
+  action.t_start = rest.actions.empty() ? 0.0 : rest.actions.back().t_end;
   action.t_end -= at;
   action.from = rest.start;
   rest.actions.push_back(action);

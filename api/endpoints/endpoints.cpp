@@ -118,11 +118,16 @@ Reply advance_endpoint(std::string_view body, const RequestContext& context) {
     if (!request || !await_turn()) return std::nullopt;
     Moment& moment = request->moment;
     moment.stand_until = standing_time(request->robots, request->executions, moment, work);
-    const auto braking = braking_of(request->robots, request->executions, moment, work);
-    auto robots = advanced(request->robots, request->executions, moment, braking, work);
+    Motions motions{braking_of(request->robots, request->executions, moment, work)};
+    for (const core::MovingObstacle& obstacle : request->obstacles) {
+      if (moment.stand_until) break;  // what is released cannot be shortened for them
+      if (auto left = advanced(obstacle, moment.at)) motions.obstacles.push_back(std::move(*left));
+    }
+    auto robots = advanced(request->robots, request->executions, moment, motions, work);
     if (work.met()) return std::nullopt;
-    const Circumstances circumstances = make_acceptable(*request, robots, braking, context.maps, work);
+    const Circumstances circumstances = make_acceptable(*request, robots, motions, context.maps, work);
     leave_out_unfit(robots, request->robots, request->executions, moment, work);
+    mark_services(robots, work);
     if (work.met()) return std::nullopt;
     return write_advanced(*request, robots, circumstances, work);
   };

@@ -28,6 +28,13 @@ inline constexpr double kLongestTravel = 1e9;
 /// Directions that differ by less are the same (radians): far above rounding, far below a visible bend.
 inline constexpr double kSameHeading = 1e-12;
 
+/// There is no translation, rotation or wait of less in a plan (metres, radians, seconds).
+inline constexpr double kLeastAction = 1e-9;
+
+/// Services and added waits take as long as this at least (seconds): more than the least, however it is
+/// rounded.
+inline constexpr double kShortestWait = 2.0 * kLeastAction;
+
 /// Arrivals and departures that differ by less are the same (seconds): rounding of sums of durations.
 inline constexpr double kSameTime = 1e-11;
 

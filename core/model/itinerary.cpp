@@ -65,6 +65,75 @@ std::vector<Visit> visits_of(const Robot& robot, std::span<const Action> actions
 
 namespace {
 
+/// The time in which a robot rests for a goal.
+struct Service {
+  std::size_t goal;
+  double begin;
+  double end;
+};
+
+/// Those of goals that take time, in their order. One that goes on at the end of the actions has no end.
+std::vector<Service> services_of(const Robot& robot, std::span<const Action> actions) {
+  std::vector<Service> services;
+  const auto add = [&](std::size_t index, double arrived, double end) {
+    const Goal& goal = robot.goal_at(index);
+    if (goal.service > 0.0 || goal.not_before > 0.0) services.push_back({index, arrived, end});
+  };
+  const ServedGoals served = served_goals(robot, actions);
+  for (const Visit& visit : served.visits) add(visit.goal, visit.t_arrive, visit.t_leave);
+  const std::size_t next = served.visits.size();
+  if (served.in_next_pose) add(next, served.arrived, robot.goal_at(next).service_end(served.arrived));
+  return services;
+}
+
+/// Adds a wait in parts, of which each serves one goal or none.
+void add_parts(const Action& wait, std::span<const Service> services, std::vector<Action>& parts) {
+  Action part = wait;
+  part.goal.reset();
+  for (const Service& service : services) {
+    if (service.begin > part.t_start + kLeastAction) {
+      part.t_end = service.begin;
+      parts.push_back(part);
+      part.t_start = part.t_end;
+    }
+    part.t_end = service.end < wait.t_end - kLeastAction ? service.end : wait.t_end;
+    part.goal = service.goal;
+    parts.push_back(part);
+    part.t_start = part.t_end;
+    part.goal.reset();
+  }
+  part.t_end = wait.t_end;
+  if (services.empty() || part.t_end > part.t_start) parts.push_back(part);
+}
+
+}  // namespace
+
+void mark_services(const Robot& robot, std::vector<Action>& actions, std::size_t first) {
+  if (!robot.goal) return;
+  const std::vector<Service> services = services_of(robot, actions);
+  std::vector<Action> marked;
+  marked.reserve(actions.size());
+  auto next = services.begin();
+  for (std::size_t k = 0; k < actions.size(); ++k) {
+    Action action = actions[k];
+    const double shortest = std::min(kLeastAction, 0.5 * (action.t_end - action.t_start));
+    while (next != services.end() && next->end <= action.t_start + shortest) ++next;
+    auto last = next;
+    while (last != services.end() && last->begin < action.t_end - shortest) ++last;
+    if (action.type != Action::Type::wait) {
+      marked.push_back(action);
+    } else if (k >= first) {
+      add_parts(action, std::span(next, last), marked);
+    } else {
+      action.goal = next != last ? std::optional(next->goal) : std::nullopt;
+      marked.push_back(action);
+    }
+  }
+  actions = std::move(marked);
+}
+
+namespace {
+
 Trajectory committed_trajectory(const Robot& robot) {
   Trajectory trajectory;
   trajectory.start = robot.start.position;

@@ -62,6 +62,11 @@ ServedGoals served_goals(const Robot& robot, std::span<const Action> actions);
 /// no end. There are fewer visits than goals if the robot does not serve all of them.
 std::vector<Visit> visits_of(const Robot& robot, std::span<const Action> actions);
 
+/// Says of the waits of a robot which goals with a service, or a `not_before`, they serve, by the visits that
+/// its actions make; of no others. A wait from `first` on that is more than one service is divided; one
+/// before is said to serve the first of its goals.
+void mark_services(const Robot& robot, std::vector<Action>& actions, std::size_t first);
+
 /// Returns the actions of the robot's previous plan as received; no actions for a robot that is parked or has
 /// no previous plan. If there are none, the robot rests after its committed actions.
 const std::vector<Action>& previous_actions(const Robot& robot);

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
+
 #include "core/geometry/position.h"
 #include "core/geometry/speed_profile.h"
+#include "core/geometry/tolerance.h"
 #include "core/model/loads.h"
 #include "core/model/plan_options.h"
 #include "core/model/robot.h"
@@ -35,7 +38,7 @@ inline Motion motion_of(const Robot& robot, const PlanOptions& options, const Lo
   return {load.radius + options.inflation,
           load.linear_speed,
           robot.angular_speed,
-          options.wait_before_move,
+          options.wait_before_move > 0.0 ? std::max(options.wait_before_move, kShortestWait) : 0.0,
           load.radius + options.inflation + robot.vicinity,
           robot.may_reverse,
           load.linear_inertia(),

@@ -17,16 +17,6 @@
 namespace fleetplan::core {
 namespace {
 
-/// Removes goals from waits that serve none. The search may let a robot rest for long enough in a goal's pose
-/// and serve the goal when it comes back. The goal counts as served by the first rest, so the later wait is
-/// for none.
-void remove_wrong_goals(std::vector<Action>& actions, const std::vector<Visit>& visits, std::size_t first) {
-  for (std::size_t i = first; i < actions.size(); ++i) {
-    std::optional<std::size_t>& goal = actions[i].goal;
-    if (goal && *goal < visits.size() && visits[*goal].t_leave <= actions[i].t_start) goal.reset();
-  }
-}
-
 /// Whether the committed actions of a robot may bring it nearer to its goals: they move it, or serve a goal.
 bool commitment_gains(const Robot& robot, const Itinerary& itinerary) {
   return !itinerary.visited.empty() || itinerary.service_done > 0.0 ||
@@ -50,6 +40,13 @@ void remove_unserved_last(std::vector<Visit>& visits, const Robot& robot, double
   if (served > stops_at + kSameTime) visits.pop_back();
 }
 
+/// Removes goals that are not served from waits of a plan that stops, from an action on.
+void remove_unserved_goals(std::vector<Action>& actions, std::size_t served, std::size_t first) {
+  for (std::size_t k = first; k < actions.size(); ++k) {
+    if (actions[k].goal && *actions[k].goal >= served) actions[k].goal.reset();
+  }
+}
+
 RobotPlan robot_plan(const FleetReservations& reservations, std::size_t index, double bound) {
   const auto& trajectory = reservations.trajectory(index);
   const Instance& instance = reservations.instance();
@@ -58,14 +55,21 @@ RobotPlan robot_plan(const FleetReservations& reservations, std::size_t index, d
     return {index, robot.committed_until(), robot.committed, robot.committed_until()};  // parked
   const double cost = trajectory->stops_at.value_or(trajectory->cost);
   if (trajectory->is_previous) {
-    const std::vector<Action>& actions = previous_actions(robot);
-    return {index, cost, actions, std::min(bound, cost), visits_of(robot, actions)};
+    std::vector<Action> actions = previous_actions(robot);
+    std::vector<Visit> visits = visits_of(robot, actions);
+    mark_services(robot, actions, actions.size());
+    return {index, cost, std::move(actions), std::min(bound, cost), std::move(visits)};
   }
   // Rounding may leave a bound slightly above the cost that it bounds.
   std::vector<Action> actions = to_actions(robot, *trajectory, instance.stages(index)[0].zones.get());
   std::vector<Visit> visits = visits_of(robot, actions);
-  remove_wrong_goals(actions, visits, robot.committed.size());
-  if (trajectory->stops_at) remove_unserved_last(visits, robot, *trajectory->stops_at);
+  // The search may let a robot rest for long enough in a goal's pose and serve the goal when it comes back.
+  // The goal counts as served by the first rest, so the later wait is for none.
+  mark_services(robot, actions, robot.committed.size());
+  if (trajectory->stops_at) {
+    remove_unserved_last(visits, robot, *trajectory->stops_at);
+    remove_unserved_goals(actions, visits.size(), robot.committed.size());
+  }
   RobotPlan plan{index, cost, std::move(actions), std::min(bound, cost), std::move(visits)};
   if (trajectory->stops_at) {
     add_estimates(plan, *trajectory, commitment_gains(robot, instance.itinerary(index)));
@@ -149,11 +153,13 @@ Plan with_stuck_explained(PlanState& state, Plan plan, const StopCondition& stop
 
 namespace {
 
-/// Radians and seconds; smaller rotations and waits are rounding. Far below the tolerances of the verifier.
+/// Seconds; smaller waits are rounding. Far below the tolerances of the verifier.
 constexpr double kNegligible = 1e-12;
 /// Seconds: rounding of the end of a rotation before a visit.
 constexpr double kRounding = 1e-9;
 
+/// Where the search has less than kLeastAction, the robot is there, or as good as turned; a wait takes
+/// longer.
 class ActionList {
  public:
   /// Begins with the committed actions.
@@ -166,6 +172,12 @@ class ActionList {
 
   /// Rotates to a heading before a move of no length: a place off the lattice may be one on it, too.
   void turn(double theta, double t_end) { rotate(theta, t_end, kNegligible); }
+  /// Whether a move to there leads anywhere.
+  bool is_elsewhere(const Position& to) const { return (to - pose_.position).norm() >= kLeastAction; }
+  /// Stays instead of a move that leads nowhere.
+  void stay(double t_end) {
+    if (t_end - now_ >= kLeastAction) wait(t_end, {});
+  }
   /// Rotates to a heading, then waits until `t_end`.
   void rotate_and_wait(double theta, double t_end) {
     rotate(theta, t_end, kNegligible);
@@ -187,12 +199,13 @@ class ActionList {
     if (goal.theta || serves) wait(t_leave, serves ? std::optional(robot_.via.size()) : std::nullopt);
   }
   void translate(const TimedMove& move) {
-    append(Action::Type::translate, move.t_end, {move.path.to, pose_.theta}, {});
+    append(Action::Type::translate, std::max(now_, move.t_end), {move.path.to, pose_.theta}, {});
     actions_.back().reverse = move.reverse;
     actions_.back().profile = move.profile;
   }
   void wait(double t_end, std::optional<std::size_t> goal) {
-    if (t_end - now_ > kNegligible) append(Action::Type::wait, t_end, pose_, goal);
+    if (t_end - now_ <= kNegligible) return;
+    append(Action::Type::wait, t_end - now_ < kLeastAction ? now_ + kShortestWait : t_end, pose_, goal);
   }
   std::vector<Action> take() { return std::move(actions_); }
 
@@ -201,7 +214,7 @@ class ActionList {
   /// The rotation ends at `t_end` if that is right up to `rounding` seconds.
   void rotate(double theta, double t_end, double rounding) {
     const double rotation = std::abs(rotation_between(pose_.theta, theta));
-    if (rotation <= kNegligible) return;
+    if (rotation < kLeastAction) return;
     const double speed = zones_ != nullptr ? zones_->angular_speed_at(pose_.position) : robot_.angular_speed;
     const Inertia inertia = robot_.angular_inertia();
     double rotated = now_ + inertia.time(rotation, speed);
@@ -246,7 +259,12 @@ std::vector<Action> to_actions(const Robot& robot, const Trajectory& trajectory,
   for (std::size_t k = first_planned_move(robot, trajectory); k < trajectory.moves.size(); ++k) {
     const TimedMove& move = trajectory.moves[k];
     for (; visit != trajectory.visits.end() && visit->t_leave <= move.t_start; ++visit) list.visit(*visit);
-    const bool moves = move.path.from != move.path.to;
+    const bool has_length = move.path.from != move.path.to;
+    const bool moves = has_length && list.is_elsewhere(move.path.to);
+    if (has_length && !moves) {
+      list.stay(move.t_end);
+      continue;
+    }
     if (!move.continues) {
       const double direction = heading_from(trajectory.moves, k);
       const double heading = move.reverse ? opposite_heading(direction) : direction;

@@ -118,7 +118,7 @@ int OwnVertices::add(const OwnVertex& own, double reach) {
     return id;
   const FineLattice nodes(grid, lattice_, robot_radius_);
   for (const Position& place : way_to_lattice(own.position, own.radius, nodes, lattice_, free_space_)) {
-    add_linked({place, robot_radius_, kForever, {}}, reach);
+    if (own_vertex_at(place) < 0) add_linked({place, robot_radius_, kForever, {}}, reach);
   }
   return id;
 }

@@ -116,7 +116,7 @@ void add_goal(const JsonReader& member, const WorldFrame& frame, Quota& quota, P
   core::Goal goal = pose.value_or(core::Goal());
   const auto service = json.find("service").number(kDuration);
   const auto not_before = json.find("not_before").number(kDuration);
-  goal.service = service.value_or(0.0);
+  if (service && *service > 0.0) goal.service = std::max(*service, core::kShortestWait);
   goal.not_before = not_before.value_or(0.0);
   const JsonReader due = json.find("due");
   goal.due = due.number(kDue);

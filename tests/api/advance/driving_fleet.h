@@ -54,7 +54,8 @@ struct DrivingFleet {
   }
 
   std::vector<core::Robot> advance(double at, std::optional<double> commit = {}) const {
-    return advanced(robots, executions, moment_of(at, commit), braking(at, commit), unbounded_work());
+    Motions motions{braking(at, commit)};
+    return advanced(robots, executions, moment_of(at, commit), motions, unbounded_work());
   }
 
   /// Those that robots cannot avoid from there on.

@@ -24,6 +24,8 @@
 #include "core/geometry/tolerance.h"
 #include "core/planner.h"
 #include "core/verify/verify.h"
+#include "tests/api/support/expect_actions.h"
+#include "tests/api/support/fleet_json.h"
 #include "tests/api/support/life_requests.h"
 #include "tests/api/support/lives.h"
 #include "tests/support/summary.h"
@@ -189,7 +191,18 @@ class Life {
     answer_ = Json::parse(reply.body);
     EXPECT_EQ(answer_.at("verified"), true);
     expect_that_choices_hold(request_, answer_);
+    expect_that_services_are_marked();
     return true;
+  }
+
+  void expect_that_services_are_marked() const {
+    for (const Json& plan : answer_.at("plans")) {
+      for (const Json& robot : request_.at("robots")) {
+        if (robot.at("id") != plan.at("robot")) continue;
+        SCOPED_TRACE(came_from_ + request_.dump());
+        expect_that_marks_follow_visits(robot, plan);
+      }
+    }
   }
 
   bool advance(double at) {

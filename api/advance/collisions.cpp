@@ -1,0 +1,121 @@
+// Which robots collide that execute nothing but their commitments, and then stand.
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "api/advance/advance.h"
+#include "api/advance/pieces.h"
+#include "core/geometry/tolerance.h"
+#include "core/model/loads.h"
+
+namespace fleetplan::api {
+
+namespace {
+
+/// Pairs that are listed; where more overlap, nobody reads all of them.
+constexpr std::size_t kMostPairs = 10'000;
+
+/// A commitment that cannot end there ends by so much before disks overlap, at most (seconds).
+constexpr double kLater = 1e-2;
+
+/// What a robot does that executes its commitment, and then stands.
+struct Stopping {
+  std::vector<Piece> committed;
+  std::vector<Piece> braking;  // instead, if it cannot stand where its commitment ends; otherwise none
+  double reach = 0.0;          // metres, from its start, with its disk
+  bool brakes = false;
+  double until = 0.0;  // seconds; how it brakes after that is after a collision, and not known
+};
+
+double length(const std::vector<core::Action>& actions) {
+  double metres = 0.0;
+  for (const core::Action& action : actions) metres += (action.to.position - action.from.position).norm();
+  return metres;
+}
+
+Stopping stopping(const core::Robot& robot, const std::vector<core::Action>& braking) {
+  Stopping made;
+  made.committed = committed_pieces(robot);
+  made.brakes = !braking.empty();
+  made.until = std::numeric_limits<double>::infinity();
+  double driven = length(robot.committed);
+  if (made.brakes && braking.back().t_end > robot.committed_until()) {
+    if (braking.back().t_end > robot.committed_until() + kLater)
+      made.until = robot.committed_until() + kLater;
+    core::Robot brakes = robot;
+    brakes.committed = braking;
+    made.braking = committed_pieces(brakes);
+    driven = std::max(driven, length(braking));
+  }
+  made.reach = core::largest_radius(robot) + driven;
+  return made;
+}
+
+class CollisionSearch {
+ public:
+  CollisionSearch(const std::vector<core::Robot>& robots, core::Work& work) : robots_(robots), work_(work) {}
+
+  void add(Stopping robot) { stopping_.push_back(std::move(robot)); }
+
+  std::vector<Collision> run() {
+    std::vector<Collision> found;
+    for (std::size_t i = 0; i < stopping_.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        if (work_.met_after(1) || found.size() >= kMostPairs) return found;
+        if (const auto t = begin_of_overlap(j, i)) found.push_back({j, i, *t});
+      }
+    }
+    return found;
+  }
+
+ private:
+  std::optional<double> begin_of_overlap(std::size_t first, std::size_t second) {
+    const core::Robot& a = robots_[first];
+    const core::Robot& b = robots_[second];
+    const double reach = a.radius + b.radius - core::kContactTolerance;
+    const double apart = (a.start.position - b.start.position).norm();
+    if (reach > 0.0 && apart < reach) return 0.0;
+    const Stopping& mine = stopping_[first];
+    const Stopping& theirs = stopping_[second];
+    if (!(mine.brakes || theirs.brakes) || apart > mine.reach + theirs.reach) return std::nullopt;
+    if (!mine.braking.empty() || !theirs.braking.empty()) {
+      const auto braked = [](const Stopping& robot) -> const std::vector<Piece>& {
+        return robot.braking.empty() ? robot.committed : robot.braking;
+      };
+      const auto t = first_contact(braked(mine), braked(theirs));
+      if (t && *t <= std::min(mine.until, theirs.until)) return t;
+    }
+    return first_contact(mine.committed, theirs.committed);
+  }
+
+  std::optional<double> first_contact(const std::vector<Piece>& mine, const std::vector<Piece>& theirs) {
+    std::optional<double> contact;
+    visit_in_time(mine, theirs, work_, [&](const Piece& piece, const Piece& other) {
+      contact = first_overlap(piece, other, piece.radius + other.radius - core::kContactTolerance);
+      return contact.has_value();
+    });
+    return contact;
+  }
+
+  const std::vector<core::Robot>& robots_;
+  core::Work& work_;
+  std::vector<Stopping> stopping_;  // by robot
+};
+
+}  // namespace
+
+std::vector<Collision> collisions_of_commitments(const std::vector<core::Robot>& robots,
+                                                 const std::vector<std::vector<core::Action>>& braking,
+                                                 core::Work& work) {
+  CollisionSearch search(robots, work);
+  for (std::size_t k = 0; k < robots.size(); ++k) {
+    if (work.met_after(kWorkOfAPiece * (1 + robots[k].committed.size()))) return {};
+    search.add(stopping(robots[k], braking[k]));
+  }
+  return search.run();
+}
+
+}  // namespace fleetplan::api
