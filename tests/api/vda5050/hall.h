@@ -41,7 +41,9 @@ struct Hall {
     all["messages"] = messages;
     return all;
   }
-  Json imported(const Json& messages) const { return answer_of(import_vda5050_endpoint, import_of(messages)); }
+  Json imported(const Json& messages) const {
+    return answer_of(import_vda5050_endpoint, import_of(messages));
+  }
   Json complete() const {
     Json all = body;
     for (const char* member : {"robots", "robot_defaults", "options"}) all[member] = request[member];
