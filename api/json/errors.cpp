@@ -35,6 +35,13 @@ void FaultList::keep(Placed placed) {
   }
 }
 
+void FaultList::add_all(FaultList other) {
+  count_ += other.count_;
+  for (Placed& placed : other.placed_) {
+    if (wanted(placed.place)) keep(std::move(placed));
+  }
+}
+
 std::vector<Fault> FaultList::listed() const {
   std::vector<Fault> faults;
   faults.reserve(placed_.size());

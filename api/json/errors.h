@@ -90,6 +90,8 @@ class FaultList {
     ++count_;
     if (wanted(place)) keep({place, make_fault()});
   }
+  /// Adds those of another list.
+  void add_all(FaultList other);
   /// Counts faults that were found, but not described.
   void count_more(std::size_t faults) { count_ += faults; }
 

@@ -138,6 +138,13 @@ class JsonReader {
   Fault described_fault(const char* code, std::string detail) const {
     return {pointer(), code, std::move(detail)};
   }
+  /// Returns the faults that `read` finds, which are then none of the document.
+  template <std::invocable Read>
+  FaultList faults_of(const Read& read) const {
+    FaultList of_document = std::exchange(document_->faults, {});
+    read();
+    return std::exchange(document_->faults, std::move(of_document));
+  }
   /// The work that ends the reading of the document. The value may be absent.
   core::Work& work() const { return *document_->work; }
   /// Counts faults of the document that are not described.

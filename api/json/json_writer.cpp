@@ -125,17 +125,27 @@ void JsonWriter::append_string(std::string_view text) {
 }
 
 // The recursion ends, as the depth of a document is limited when it is read.
-void copy_json(JsonWriter& json, const JsonValue& value) {  // NOLINT(misc-no-recursion)
+namespace {
+
+enum class Nulls : std::uint8_t { kept, left_out };
+
+void copy(JsonWriter& json, const JsonValue& value, Nulls nulls) {  // NOLINT(misc-no-recursion)
+  const auto is_left_out = [&](const JsonValue& child) {
+    return nulls == Nulls::left_out && child.is_null();
+  };
   if (value.is_object()) {
     json.begin_object();
     for (const JsonValue member : value.children()) {
+      if (is_left_out(member)) continue;
       json.key(member.key());
-      copy_json(json, member);
+      copy(json, member, nulls);
     }
     json.end_object();
   } else if (value.is_array()) {
     json.begin_array();
-    for (const JsonValue item : value.children()) copy_json(json, item);
+    for (const JsonValue item : value.children()) {
+      if (!is_left_out(item)) copy(json, item, nulls);
+    }
     json.end_array();
   } else if (const auto text = value.string()) {
     json.value(*text);
@@ -149,5 +159,11 @@ void copy_json(JsonWriter& json, const JsonValue& value) {  // NOLINT(misc-no-re
     json.value(value.number());  // null for none
   }
 }
+
+}  // namespace
+
+void copy_json(JsonWriter& json, const JsonValue& value) { copy(json, value, Nulls::kept); }
+
+void copy_without_null(JsonWriter& json, const JsonValue& value) { copy(json, value, Nulls::left_out); }
 
 }  // namespace fleetplan::api

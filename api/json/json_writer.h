@@ -62,4 +62,7 @@ class JsonWriter {
 /// exactly.
 void copy_json(JsonWriter& json, const JsonValue& value);
 
+/// Writes a value of a document without `null`: members and items that are null are left out.
+void copy_without_null(JsonWriter& json, const JsonValue& value);
+
 }  // namespace fleetplan::api

@@ -35,8 +35,8 @@ std::string text_of_member(const JsonReader& member, std::string_view name, std:
   return {};
 }
 
-constexpr std::array<std::string_view, 3> kActionMembers{"type", "blocking_type", "parameters"};
-constexpr std::array<std::string_view, 3> kBlockingTypes{"NONE", "SOFT", "HARD"};
+constexpr std::array<std::string_view, 4> kActionMembers{"type", "blocking_type", "retriable", "parameters"};
+constexpr std::array<std::string_view, 4> kBlockingTypes{"NONE", "SINGLE", "SOFT", "HARD"};
 
 }  // namespace
 
@@ -56,6 +56,7 @@ std::string parse_goal_actions(const JsonReader& goal) {
     const JsonReader action = item.object(kActionMembers);
     action.require("type").name();
     action.find("blocking_type").word(kBlockingTypes);
+    action.find("retriable").boolean();
     const JsonReader parameters = action.find("parameters");
     if (parameters && !parameters.value().is_object()) parameters.must_be(fault::kWrongType, "an object");
   }

@@ -35,6 +35,9 @@ struct OrderBase {
   std::uint64_t sequence_id = 0;            // of the last node that is released
   JsonReader last;                          // this node, as it was sent
   std::vector<core::Position> still_to_do;  // the released nodes that the vehicle has not reached, in order
+  std::vector<JsonReader> released;         // the released nodes, as they were sent
+  bool has_horizon = false;                 // it has nodes that are not released
+  bool is_known = false;                    // the vehicle has reported of it before
 };
 
 /// Returns the place in these actions from which on the robot stands.
@@ -48,6 +51,9 @@ std::optional<std::string> why_it_ends(const OrderBase& base, const core::Robot&
 
 /// Ids of updates and sequences are unsigned numbers of 32 bits, and there is one after each.
 inline constexpr std::uint64_t kGreatestId = 4'294'967'294;
+
+/// Metres between which the last released node and the end of committed motion are the same: rounding.
+inline constexpr double kSameNode = 1e-6;
 
 /// Returns the value itself if it is an object; otherwise an absent one. Messages may have more members than
 /// are known here.
@@ -69,10 +75,11 @@ struct OrderHeader {
 /// How far a robot is, and the order that it has.
 struct OrderProgress {
   core::ActionPlace at;
-  std::optional<std::string> order_id;        // none: it has no order yet
-  std::uint64_t update_id = 0;                // update of the last message
-  std::uint64_t last_released = 0;            // the sequence id of the last node of the base
-  std::optional<std::string> cancel_id = {};  // of the action that cancels the order
+  std::optional<std::string> order_id;             // none: it has no order yet
+  std::uint64_t update_id = 0;                     // update of the last message
+  std::uint64_t last_released = 0;                 // the sequence id of the last node of the base
+  std::optional<std::string> cancel_id = {};       // of the action that cancels the order
+  std::optional<std::string> ended_order_id = {};  // without an order: of the one that was cancelled or lost
 };
 
 /// What the messages to a vehicle say of it.
@@ -89,6 +96,7 @@ struct VdaRequest {
   std::vector<core::RobotPlan> plans;
   std::vector<Gate> gates;
   std::optional<double> release_ahead;          // seconds; none: all that is open
+  std::optional<double> allowed_deviation;      // metres, of nodes
   std::vector<std::optional<OrderBase>> bases;  // by robot, as all of these
   std::vector<core::Actions> actions;           // of `robots` and `plans`
   std::vector<Route> routes;
@@ -101,10 +109,13 @@ struct VdaRequest {
   VdaRequest& operator=(VdaRequest&&) = default;
 };
 
-inline constexpr std::array<std::string_view, 17> kVdaMembers{
-    "version",      "map",           "map_id",   "map_ids",      "robots",        "robot_defaults",
-    "plans",        "options",       "base",     "dependencies", "release_ahead", "progress",
-    "manufacturer", "manufacturers", "metadata", "timestamp",    "serial_numbers"};
+inline constexpr std::array<std::string_view, 18> kVdaMembers{
+    "version",      "map",           "map_id",   "map_ids",      "robots",         "robot_defaults",
+    "plans",        "options",       "base",     "dependencies", "release_ahead",  "progress",
+    "manufacturer", "manufacturers", "metadata", "timestamp",    "serial_numbers", "allowed_deviation"};
+
+/// Whether a text is a time in UTC, as messages have it: 2026-01-31T12:00:00.000Z.
+bool is_timestamp(std::string_view text);
 
 /// Reads the root of the document. Returns none if it has faults, or if `work` is met.
 std::optional<VdaRequest> parse_vda5050_request(const JsonReader& root, const Limits& limits,
@@ -114,8 +125,10 @@ std::optional<VdaRequest> parse_vda5050_request(const JsonReader& root, const Li
 struct NodeAction {
   std::string_view type;
   std::string_view blocking_type = "HARD";
-  JsonReader parameters;          // of an action of a goal; may be absent
-  std::optional<Stop> stop = {};  // of the plan; none: an action of a goal
+  bool retriable = false;
+  JsonReader parameters;                 // of an action of a goal; may be absent
+  std::optional<Stop> stop = {};         // of the plan; none: an action of a goal
+  std::optional<std::size_t> goal = {};  // that it serves; none: an added wait
 };
 
 /// Returns the actions of a node in their order: a goal's own ones, after a wait for its `not_before`;

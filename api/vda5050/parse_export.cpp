@@ -23,10 +23,12 @@ constexpr std::array<std::string_view, 3> kBaseMembers{"robot", "order", "state"
 class BaseReader {
  public:
   explicit BaseReader(const JsonReader& entry) : order_(message(entry.require("order"))) {
-    const JsonReader state = message(entry.find("state"));
-    const auto reached = state.find("lastNodeSequenceId").natural(kGreatestId);
-    const bool is_of_order = state.find("orderId").string() == order_.find("orderId").string();
-    if (reached && is_of_order) reached_ = *reached;
+    // What a vehicle has reported is no fault of the request, whatever it is.
+    const JsonReader state = entry.find("state");
+    const auto order_id = state.find("orderId").string();
+    base_.is_known = order_id && order_id == order_.find("orderId").string();
+    const bool has_node = !state.find("lastNodeId").string().value_or("").empty();
+    if (base_.is_known && has_node) reached_ = state.find("lastNodeSequenceId").natural();
   }
 
   /// Reads the order; none if it has a fault.
@@ -50,9 +52,11 @@ class BaseReader {
     const auto x = position.require("x").number(kCoordinate);
     const auto y = position.require("y").number(kCoordinate);
     node.require("nodeId").name();
+    base_.has_horizon = base_.has_horizon || released == false;
     if (!sequence_id || !x || !y || released != true) return;
     base_.sequence_id = *sequence_id;
     base_.last = node;
+    base_.released.push_back(node);
     if (!reached_ || *sequence_id > *reached_) base_.still_to_do.emplace_back(*x, *y);
   }
 
@@ -82,9 +86,6 @@ std::vector<std::optional<OrderBase>> parse_bases(const JsonReader& member,
   }
   return bases;
 }
-
-/// The last node of a base and the end of committed motion that are nearer are the same (metres): rounding.
-constexpr double kSameNode = 1e-6;
 
 /// A robot that is measured beside its path goes straight back to the end of its action. So far it may pass
 /// beside nodes on its way (metres), which is the pose_tolerance of POST /v1/advance by default.
@@ -159,13 +160,6 @@ std::optional<std::string> why_it_ends(const OrderBase& base, const core::Robot&
   return std::nullopt;
 }
 
-namespace {
-
-constexpr std::array<std::string_view, 2> kVersions{"2.1.0", "3.0.0"};  // in the order of VdaVersion
-constexpr std::array<std::string_view, 7> kProgressMembers{
-    "robot", "order_id", "order_update_id", "last_released_sequence_id", "action", "progress", "cancel_id"};
-constexpr Range kReleaseAhead{0.1, kLongestTime, "seconds"};
-
 bool is_timestamp(std::string_view text) {
   constexpr std::string_view kShape = "0000-00-00T00:00:00";
   if (text.size() <= kShape.size() || text.back() != 'Z') return false;
@@ -178,6 +172,15 @@ bool is_timestamp(std::string_view text) {
   return fraction.size() > 1 && fraction.front() == '.' &&
          std::all_of(fraction.begin() + 1, fraction.end(), is_digit);
 }
+
+namespace {
+
+constexpr std::array<std::string_view, 2> kVersions{"2.1.0", "3.0.0"};  // in the order of VdaVersion
+constexpr std::array<std::string_view, 8> kProgressMembers{
+    "robot",  "order_id", "order_update_id", "last_released_sequence_id",
+    "action", "progress", "cancel_id",       "ended_order_id"};
+constexpr Range kReleaseAhead{0.1, kLongestTime, "seconds"};
+constexpr Range kDeviation{0.0, 1e6, "metres"};
 
 OrderHeader read_header(const JsonReader& root) {
   OrderHeader header;
@@ -268,6 +271,8 @@ class ProgressReader {
     const auto update_id = read_of_order("order_update_id").natural(kGreatestId);
     const auto last_released = last.natural(kGreatestId);
     progress.cancel_id = json.find("cancel_id").name();
+    const auto ended = json.find("ended_order_id").name();
+    if (!has_order) progress.ended_order_id = ended;
     if (!has_order) return;
     progress.order_id = order_id.name();
     progress.update_id = update_id.value_or(0);
@@ -381,6 +386,7 @@ std::optional<VdaRequest> parse_vda5050_request(const JsonReader& root, const Li
       request.robots, request.plans);
   request.vehicles = read_vehicles(root, request.header.manufacturer, request.robots);
   request.release_ahead = root.find("release_ahead").number(kReleaseAhead);
+  request.allowed_deviation = root.find("allowed_deviation").number(kDeviation);
   request.bases = parse_bases(root.find("base"), request.robots);
   request.actions = core::executed_actions(request.robots, request.plans);
   request.gates = gates_of(dependencies, request.actions);

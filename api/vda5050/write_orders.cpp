@@ -15,13 +15,18 @@ namespace fleetplan::api {
 
 namespace {
 
-/// Adds the actions that the client has given a goal; none if it has not.
-void add_given(const JsonReader& goal, std::vector<NodeAction>& actions) {
-  for (const JsonReader given : goal.find("actions").items()) {
+/// Returns the actions that the client has given a goal; none if it has not.
+std::vector<NodeAction> given_actions(const std::vector<JsonReader>& goals, std::size_t goal) {
+  std::vector<NodeAction> actions;
+  if (goal >= goals.size()) return actions;
+  for (const JsonReader given : goals[goal].find("actions").items()) {
     actions.push_back({.type = given.find("type").string().value_or(""),
                        .blocking_type = given.find("blocking_type").string().value_or("HARD"),
-                       .parameters = given.find("parameters")});
+                       .retriable = given.find("retriable").boolean().value_or(false),
+                       .parameters = given.find("parameters"),
+                       .goal = goal});
   }
+  return actions;
 }
 
 }  // namespace
@@ -32,12 +37,14 @@ std::vector<NodeAction> actions_of(const VdaRequest& request, std::size_t robot,
   // Bounded: the actions in the body, of goals that occur in one stop each.
   for (const Stop& stop : node.stops) {
     std::vector<NodeAction> given;
-    if (stop.goal && *stop.goal < goals.size()) add_given(goals[*stop.goal], given);
+    if (stop.goal) given = given_actions(goals, *stop.goal);
     Stop own = stop;
     if (!given.empty()) own.duration = 0.0;
     if (given.empty() || own.not_before > 0.0) {
-      actions.push_back(
-          {.type = stop.goal ? "fleetplanService" : "fleetplanWait", .parameters = {}, .stop = own});
+      actions.push_back({.type = stop.goal ? "fleetplanService" : "fleetplanWait",
+                         .parameters = {},
+                         .stop = own,
+                         .goal = stop.goal});
     }
     actions.insert(actions.end(), given.begin(), given.end());
   }
@@ -110,12 +117,13 @@ class OrderWriter {
   }
 
   void write_node(std::size_t k) {
-    if (is_of_base(k)) return copy_json(json_, base_->last.value());
+    if (is_of_base(k)) return copy_without_null(json_, base_->last.value());
     const RouteNode& node = route_.nodes[k];
     json_.begin_object().member("nodeId", node_id(k)).member("sequenceId", route_.sequence_id(k));
     json_.member("released", k < order_.released).key("nodePosition").begin_object();
     json_.member("x", node.position.x()).member("y", node.position.y());
     if (node.theta) json_.member("theta", core::normalize_angle(*node.theta));
+    write_deviation();
     json_.member("mapId", vehicle_.map_id).end_object().key("actions").begin_array();
     std::size_t index = 0;
     for (const NodeAction& action : actions_of(request_, robot_, node)) {
@@ -124,14 +132,30 @@ class OrderWriter {
     json_.end_array().end_object();
   }
 
+  void write_deviation() {
+    const auto& deviation = request_.allowed_deviation;
+    if (!deviation) return;
+    if (!is_v3()) {
+      json_.member("allowedDeviationXY", *deviation);
+      return;
+    }
+    json_.key("allowedDeviationXY").begin_object().member("a", *deviation).member("b", *deviation);
+    json_.member("theta", 0.0).end_object();
+  }
+
   void write_action(const NodeAction& action, const std::string& id) {
+    // Up to 2.1 no type allows driving, but no other actions: HARD allows neither.
+    const bool is_known = is_v3() || action.blocking_type != "SINGLE";
     json_.begin_object().member("actionType", action.type).member("actionId", id);
-    json_.member("blockingType", action.blocking_type).key("actionParameters").begin_array();
+    json_.member("blockingType", is_known ? action.blocking_type : "HARD");
+    if (is_v3() && action.retriable) json_.member("retriable", true);
+    json_.key("actionParameters").begin_array();
     if (action.stop) write_stop(*action.stop);
     // Bounded: the text of the request, which is copied.
     for (const JsonReader parameter : action.parameters.members()) {
+      if (parameter.is_null()) continue;
       json_.begin_object().member("key", parameter.value().key()).key("value");
-      copy_json(json_, parameter.value());
+      copy_without_null(json_, parameter.value());
       json_.end_object();
     }
     json_.end_array().end_object();
@@ -176,8 +200,8 @@ class OrderWriter {
 std::optional<Order> next_order(const VdaRequest& request, std::size_t robot, std::size_t released) {
   const OrderProgress& progress = request.progress[robot];
   if (progress.cancel_id) return std::nullopt;
-  // Where a vehicle stands whose order was cancelled is not in the plan.
-  if (!progress.order_id && request.bases[robot]) return std::nullopt;
+  // Where a vehicle stands whose order was cancelled or lost is not in the plan.
+  if (!progress.order_id && (request.bases[robot] || progress.ended_order_id)) return std::nullopt;
   const Route& route = request.routes[robot];
   const bool has_work = route.nodes.size() > 1 || !route.nodes.front().stops.empty();
   if (!progress.order_id && !has_work) return std::nullopt;

@@ -74,7 +74,7 @@ class Vehicle:
     def state(self):
         manufacturer, serial_number = self.address
         return {"headerId": 0, "manufacturer": manufacturer, "serialNumber": serial_number, "orderId": self.order_id, "orderUpdateId": self.update_id,
-                "lastNodeId": "", "lastNodeSequenceId": self.last, "driving": bool(self.nodes),
+                "lastNodeId": f"node-{self.last}", "lastNodeSequenceId": self.last, "driving": bool(self.nodes),
                 "agvPosition": {**self.pose, "mapId": "map", "positionInitialized": True}, "errors": self.errors,
                 "actionStates": [{"actionId": name, "actionStatus": status} for name, status in self.actions.items()]}
 

@@ -275,7 +275,7 @@ def orders_of_a_long_leg(**more):
 
 def report_of_many_actions(count):
     """What a vehicle reports that has ended so many actions, with as many nodes to come."""
-    message = {"serialNumber": "a", "orderId": "o", "orderUpdateId": 0, "lastNodeSequenceId": 2,
+    message = {"serialNumber": "a", "orderId": "o", "orderUpdateId": 0, "lastNodeId": "n", "lastNodeSequenceId": 2,
                "nodeStates": [{"sequenceId": 4 + 2 * k} for k in range(count)],
                "actionStates": [{"actionId": f"a{k}", "actionStatus": "FINISHED"} for k in range(count)],
                "errors": [{"errorLevel": "WARNING", "errorReferences": [{"referenceKey": "orderId", "referenceValue": "o"}]}] * count,

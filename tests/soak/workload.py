@@ -77,7 +77,7 @@ def state_of(robot, order):
     position = {**first["nodePosition"], "positionInitialized": True}
     position.setdefault("theta", 0.0)
     return {"serialNumber": robot, "orderId": order["orderId"], "orderUpdateId": order["orderUpdateId"],
-            "lastNodeSequenceId": first["sequenceId"], "agvPosition": position, "actionStates": [], "errors": [],
+            "lastNodeId": first["nodeId"], "lastNodeSequenceId": first["sequenceId"], "agvPosition": position, "actionStates": [], "errors": [],
             "nodeStates": [{"sequenceId": node["sequenceId"], "released": node["released"]} for node in rest]}
 
 

@@ -120,11 +120,13 @@ class Client:
                        manufacturer: str, manufacturers: Mapping[str, str] | None = None, timestamp: str | None = None,
                        map_id: str | None = None, map_ids: Mapping[str, str] | None = None,
                        serial_numbers: Mapping[str, str] | None = None, release_ahead: float | None = None,
+                       allowed_deviation: float | None = None,
                        base: Sequence[OrderBase] = (), progress: Sequence[OrderProgress] = ()) -> Vda5050Answer:
         """`timestamp`: in UTC, as ISO 8601 has it; by default, now. The plans have dependencies."""
         body = _vda5050(request, plans, version=version, manufacturer=manufacturer, manufacturers=manufacturers,
                         timestamp=timestamp, map_id=map_id, map_ids=map_ids, serial_numbers=serial_numbers,
-                        release_ahead=release_ahead, base=base or None, progress=progress or None)
+                        release_ahead=release_ahead, allowed_deviation=allowed_deviation, base=base or None,
+                        progress=progress or None)
         return cast(Vda5050Answer, self._post("/v1/export/vda5050", body, request))
 
     def import_vda5050(self, request: PlanRequest, plans: Plans, messages: Sequence[VdaMessage], *,
@@ -132,11 +134,13 @@ class Client:
                        manufacturers: Mapping[str, str] | None = None, timestamp: str | None = None,
                        map_id: str | None = None, map_ids: Mapping[str, str] | None = None,
                        serial_numbers: Mapping[str, str] | None = None, release_ahead: float | None = None,
+                       allowed_deviation: float | None = None,
                        base: Sequence[OrderBase] = (), progress: Sequence[OrderProgress] = ()) -> Vda5050States:
-        """What vehicles report. `messages`: the last state of each; the others are those of the last export."""
+        """What vehicles report. `messages`: the last state of each, whatever it is; the other parameters are those of the last export."""
         body = _vda5050(request, plans, version=version, manufacturer=manufacturer, manufacturers=manufacturers,
                         timestamp=timestamp, map_id=map_id, map_ids=map_ids, serial_numbers=serial_numbers,
-                        release_ahead=release_ahead, base=base or None, progress=progress or None, messages=messages)
+                        release_ahead=release_ahead, allowed_deviation=allowed_deviation, base=base or None,
+                        progress=progress or None, messages=messages)
         return cast(Vda5050States, self._post("/v1/import/vda5050", body, request))
 
     # ---------------------------------------------------------------- the server

@@ -197,7 +197,8 @@ class Action(_Ends):
 
 class GoalAction(TypedDict):
     type: str
-    blocking_type: NotRequired[Literal["NONE", "SOFT", "HARD"]]
+    blocking_type: NotRequired[Literal["NONE", "SINGLE", "SOFT", "HARD"]]
+    retriable: NotRequired[bool]
     parameters: NotRequired[dict[str, Any]]
 
 
@@ -787,6 +788,7 @@ class OrderProgress(TypedDict):
     action: int
     progress: float
     cancel_id: NotRequired[str]
+    ended_order_id: NotRequired[str]
 
 
 class OrderBase(TypedDict):
@@ -820,11 +822,32 @@ class Vda5050Answer(TypedDict):
     all_released: bool
 
 
+class UnavailabilityReason(TypedDict):
+    reason: Literal["not_reported", "unreadable", "operating_mode", "emergency_stop", "field_violation", "paused",
+                    "not_localized", "other_map", "error", "order_refused", "order_unknown", "other_order",
+                    "order_cleared", "restarted", "action_failed", "action_retriable"]
+    detail: str
+
+
+class Availability(TypedDict):
+    available: bool
+    reasons: list[UnavailabilityReason]
+
+
+class FailedAction(TypedDict):
+    action_id: str
+    goal: NotRequired[int]
+
+
 class VehicleReport(TypedDict):
     robot: str
     accepted: bool
     arrived: bool
     failed: bool
+    availability: Availability
+    failed_actions: list[FailedAction]
+    errors: list[Fault]
+    errors_total: int
 
 
 class Vda5050States(TypedDict):
@@ -832,6 +855,8 @@ class Vda5050States(TypedDict):
     poses: list[VehiclePose]
     progress: list[OrderProgress]
     vehicles: list[VehicleReport]
+    errors: list[Fault]
+    errors_total: int
 
 
 # ---------------------------------------------------------------- GET

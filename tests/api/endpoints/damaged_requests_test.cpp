@@ -115,7 +115,7 @@ std::vector<std::pair<Endpoint, Json>> requests_about(const Json& request) {
                                    {"progress", 0.0}});
   }
   reports["messages"] = Json::parse(R"([{"serialNumber": "s1", "orderId": "", "orderUpdateId": 0,
-    "lastNodeSequenceId": 0, "driving": false, "nodeStates": [], "actionStates": [], "errors": [],
+    "lastNodeId": "n", "lastNodeSequenceId": 0, "driving": false, "nodeStates": [], "actionStates": [], "errors": [],
     "velocity": {"vx": 0.1, "omega": 0.0},
     "agvPosition": {"x": 1.6, "y": 2.5, "theta": 0.0, "mapId": "floor", "positionInitialized": true}}])");
   reports["messages"][0]["orderId"] = reports["progress"][0]["order_id"];

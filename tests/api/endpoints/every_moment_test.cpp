@@ -210,6 +210,7 @@ Json to_import() {
   body["messages"] = {{{"serialNumber", "a"},
                        {"orderId", order["orderId"]},
                        {"orderUpdateId", 0},
+                       {"lastNodeId", "n"},
                        {"lastNodeSequenceId", 0},
                        {"agvPosition", {{"x", 0.5}, {"y", 0.5}, {"theta", 0.0}}}}};
   body["base"] = {{{"robot", "a"}, {"order", order}, {"state", body["messages"][0]}}};

@@ -252,6 +252,7 @@ export class Executions {
           manufacturer: fc.constant(ownOf(body.manufacturers, robot.id) ?? body.manufacturer),
           orderId: fc.oneof(text, fc.constant(""), fc.constant(orderOf(body, robot.id) ?? "")),
           orderUpdateId: number,
+          lastNodeId: fc.constantFrom("n", "", null),
           lastNodeSequenceId: number,
           agvPosition: fc.constant({
             ...robot.start,
@@ -260,13 +261,20 @@ export class Executions {
             positionInitialized: true,
           }),
           actionStates: fc.array(
-            fc.record({ actionId: text, actionStatus: fc.constantFrom("RUNNING", "FINISHED") }),
+            fc.record({ actionId: text, actionStatus: fc.constantFrom("RUNNING", "FINISHED", "FAILED") }),
             { maxLength: 3 },
           ),
+          operatingMode: fc.constantFrom("AUTOMATIC", "MANUAL", "INTERVENED", null, 7),
+          paused: fc.constantFrom(false, true, null),
+          nodeStates: fc.constantFrom([], [{ sequenceId: 2 }], null, {}),
         });
+      const anything = fc.constantFrom(7, null, {}, { serialNumber: serials[0] }, { serialNumber: "nobody" });
       return fc
         .record({
-          messages: ofSome(vehicles, message),
+          messages: fc
+            .tuple(ofSome(vehicles, message), fc.array(anything, { maxLength: 2 }))
+            .map((lists) => lists.flat()),
+          allowed_deviation: within(0, 1),
           release_ahead: within(1e6, 1e8), // robots may be very slow
         })
         .map((further) => ({ ...body, ...further }));
