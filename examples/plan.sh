@@ -3,17 +3,24 @@
 #
 #   plan.sh REQUEST.json [URL of the service]
 #
-# The exit code is 0 if every robot has a plan.
+# The exit code is 0 if every robot has a plan, 1 if not, and 2 if there is no answer, or an error.
 set -euo pipefail
 request=${1:?usage: plan.sh REQUEST.json [URL]}
 url=${2:-http://localhost:8080}
 
 answer=$(mktemp)
 trap 'rm -f "$answer"' EXIT
-status=$(curl -sS -o "$answer" -w '%{http_code}' -H 'Content-Type: application/json' \
-  --data-binary @"$request" "$url/v1/plan")
+# The time budget, by default 5 s, and five seconds for all the rest.
+seconds=$(jq '(.options.time_budget_ms // 5000) / 1000 + 5' "$request") || exit 2
+status=$(curl -sS -o "$answer" -w '%{http_code}' --max-time "$seconds" -H 'Content-Type: application/json' \
+  --data-binary @"$request" "$url/v1/plan") || exit 2
 if [ "$status" != 200 ]; then
-  jq -r '.detail, (.errors[]? | "\(.pointer): \(.detail)")' "$answer" >&2
+  jq -r '.detail, (.errors[]? | "\(.pointer): \(.detail)")' "$answer" >&2 2>/dev/null ||
+    echo "$url answers $status; is this a proxy?" >&2
+  exit 2
+fi
+if ! jq -e '.plans and .unplanned and .status' "$answer" >/dev/null 2>&1; then
+  echo "the answer of $url is no plan; is this a proxy?" >&2
   exit 2
 fi
 

@@ -75,7 +75,7 @@ class Vehicle:
         manufacturer, serial_number = self.address
         return {"headerId": 0, "manufacturer": manufacturer, "serialNumber": serial_number, "orderId": self.order_id, "orderUpdateId": self.update_id,
                 "lastNodeId": f"node-{self.last}", "lastNodeSequenceId": self.last, "driving": bool(self.nodes),
-                "agvPosition": {**self.pose, "mapId": "map", "positionInitialized": True}, "errors": self.errors,
+                "agvPosition": {**self.pose, "mapId": "hall", "positionInitialized": True}, "errors": self.errors,
                 "actionStates": [{"actionId": name, "actionStatus": status} for name, status in self.actions.items()]}
 
     def _go(self, now, seconds):

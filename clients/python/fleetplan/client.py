@@ -1,8 +1,8 @@
 """The endpoints of the service as methods."""
 
-import contextlib
 import datetime
-import json
+import email.utils
+import math
 import ssl
 import time
 from collections.abc import Generator, Iterator, Mapping, Sequence
@@ -10,8 +10,9 @@ from types import TracebackType
 from typing import Literal, cast
 from urllib.parse import quote
 
-from fleetplan.errors import ConnectionFailed, ProblemError, problem_error
-from fleetplan.http import Pool, Response, read_json
+from fleetplan.errors import (ConnectionFailed, FleetplanError, InvalidAnswer, InvalidValue, ProblemError, problem_error,
+                              shown)
+from fleetplan.http import Bounds, Pool, Response, read_json, write_json
 from fleetplan.types import (AdvanceAnswer, AssignAnswer, DependenciesAnswer, Disturbance, Health, Hold, Limits,
                              LoneRobot, MatrixAnswer, MeasuredPose, NewGoals, OrderBase, OrderProgress, PacedState,
                              PlanAnswer, PlanEvent, PlanRequest, Plans, RetimeAnswer, RobotState, SimulationAnswer,
@@ -20,6 +21,9 @@ from fleetplan.types import (AdvanceAnswer, AssignAnswer, DependenciesAnswer, Di
 
 _PROBLEM_WITHOUT_BODY = "the answer is not problem details; is this a proxy?"
 _RETRY_AFTER = 1.0  # seconds, if the server does not say
+_LEAST_WAIT = 0.25  # seconds, whatever it says
+_MOST_BYTES = 256 << 20  # of an answer
+_MOST_BUDGET = 1e9  # milliseconds: more is no time budget
 
 
 class Client:
@@ -29,15 +33,20 @@ class Client:
     """
 
     def __init__(self, url: str = "http://localhost:8080", *, token: str | None = None, timeout: float = 10.0,
-                 patience: float = 30.0, context: ssl.SSLContext | None = None) -> None:
-        """`token`: of servers that require one. `timeout`: seconds for which the server may be silent, beside the time
-        budget of the request. `patience`: seconds in which a request to a busy server is sent again; 0 for never.
-        `context`: of https; by default, the certificates that the system trusts."""
+                 patience: float = 30.0, context: ssl.SSLContext | None = None, max_answer: int = _MOST_BYTES) -> None:
+        """`token`: of servers that require one. `timeout`: seconds that a request may take as a whole, from its
+        connection to the end of its answer, beside its time budget; between events, the server may be silent for so
+        long. `patience`: seconds in which a request to a busy server is sent again; 0 for never. `context`: of https;
+        by default, the certificates that the system trusts. `max_answer`: bytes of an answer, or of an event."""
         self._pool = Pool(url, context)
+        if not timeout > 0.0 or not patience >= 0.0 or max_answer < 1:
+            raise InvalidValue("timeout and max_answer are more than 0, and patience is not negative")
+        if token is not None and not (token.isascii() and token.isprintable()):
+            raise InvalidValue("the token has characters that a header cannot have")
         self._headers = {"User-Agent": "fleetplan-python"}
         if token is not None:
             self._headers["Authorization"] = f"Bearer {token}"
-        self._timeout, self._patience = timeout, patience
+        self._timeout, self._patience, self._max_answer = timeout, patience, max_answer
 
     def __enter__(self) -> "Client":
         return self
@@ -153,8 +162,11 @@ class Client:
 
     def examples(self) -> list[str]:
         """The names of the example requests."""
-        listed = cast(dict[str, list[dict[str, str]]], self._answer("GET", "/v1/examples"))
-        return [example["name"] for example in listed["examples"]]
+        listed = self._answer("GET", "/v1/examples").get("examples")
+        names = [example.get("name") for example in listed if isinstance(example, dict)] if isinstance(listed, list) else []
+        if not names or not all(isinstance(name, str) for name in names):
+            raise InvalidAnswer(f"{self._pool.url} lists no examples")
+        return cast(list[str], names)
 
     def example(self, name: str) -> PlanRequest:
         return cast(PlanRequest, self._answer("GET", "/v1/examples/" + quote(name, safe="")))
@@ -163,30 +175,30 @@ class Client:
 
     def _post(self, path: str, body: Mapping[str, object], request: Mapping[str, object] | None = None) -> object:
         """`request`: the one that has the options, if it is not the body."""
-        return self._answer("POST", path, body, self._silence(request or body))
-
-    def _silence(self, request: Mapping[str, object]) -> float:
-        """Seconds for which the server may compute and be silent."""
-        options = request.get("options")
-        budget = options.get("time_budget_ms") if isinstance(options, Mapping) else None
-        default = 5000.0  # of the server, unless it is set otherwise
-        return self._timeout + (budget if isinstance(budget, int | float) else default) / 1000.0
+        return self._answer("POST", path, body, _budget(request or body))
 
     def _answer(self, method: str, path: str, body: Mapping[str, object] | None = None,
-                timeout: float | None = None) -> object:
-        with self._send(method, path, "application/json", body, timeout or self._timeout) as response:
+                budget: float = 0.0) -> dict[str, object]:
+        """`budget`: seconds for which the server may compute."""
+        whole = self._timeout + budget
+        with self._send(method, path, "application/json", body, whole, whole) as response:
             text = response.read()
         value = read_json(text)
         if value is None:
-            raise ConnectionFailed(f"{self._pool.url}{path} answers {text[:80]!r}, which is not JSON")
+            raise InvalidAnswer(f"{self._pool.url}{path} answers {text[:80]!r}, which is not JSON")
+        if not isinstance(value, dict):
+            raise InvalidAnswer(f"{self._pool.url}{path} answers {text[:80]!r}, which is no object")
         return value
 
     def _events(self, path: str, body: Mapping[str, object], last: str) -> Iterator[tuple[str, object]]:
         """Events come at least four times per second, so the server is never silent for long."""
-        with self._send("POST", path, "text/event-stream", body, self._timeout) as response:
+        whole = self._timeout + _budget(body)
+        with self._send("POST", path, "text/event-stream", body, self._timeout, whole) as response:
             for event in response.events():
                 data = read_json(event.data)
-                if event.name == "problem" and isinstance(data, Mapping):
+                if not isinstance(data, dict):
+                    raise InvalidAnswer(f"{self._pool.url}{path} sends an event {shown(event.data[:80])}")
+                if event.name == "problem":
                     raise _as_error(data)
                 if event.name == last:
                     response.read()  # to its end, so that the connection is kept
@@ -195,26 +207,45 @@ class Client:
                     return
         raise ConnectionFailed(f"the events of {self._pool.url}{path} end without {last}")
 
-    def _send(self, method: str, path: str, accept: str, body: Mapping[str, object] | None,
-              timeout: float) -> Response:
-        """The answer to a request that succeeds; its body is still to be read."""
+    def _send(self, method: str, path: str, accept: str, body: Mapping[str, object] | None, silence: float,
+              whole: float) -> Response:
+        """The answer to a request that succeeds; its body is still to be read. `silence`, `whole`: seconds, see
+        `Bounds`."""
         headers = {**self._headers, "Accept": accept}
         sent = None
         if body is not None:
-            sent = json.dumps(body, separators=(",", ":"), allow_nan=False).encode()
+            sent = write_json(body).encode()
             headers["Content-Type"] = "application/json"
         give_up = time.monotonic() + self._patience
         while True:
-            response = self._pool.send(method, path, headers, sent, timeout)
-            if response.status < 400:
+            response = self._pool.send(method, path, headers, sent, Bounds(silence, whole, self._max_answer))
+            if response.status == 200:
                 return response
-            with response:
-                problem = read_json(response.read())
             wait = _retry_after(response.retry_after)
+            error = self._error_of(response)
             if response.status != 503 or time.monotonic() + wait > give_up:
-                known = problem if isinstance(problem, Mapping) else {"detail": _PROBLEM_WITHOUT_BODY}
-                raise problem_error(response.status, known)
+                raise error
             time.sleep(wait)
+
+    def _error_of(self, response: Response) -> FleetplanError:
+        """What an answer says that is not a success. Redirections are not followed: the service sends none."""
+        with response:
+            if response.status < 400:
+                return InvalidAnswer(f"{self._pool.url} answers {response.status} {shown(response.reason)}; "
+                                     f"is this a proxy?")
+            try:
+                problem = read_json(response.read())
+            except FleetplanError:
+                problem = None
+        return problem_error(response.status, problem if isinstance(problem, dict) else {"detail": _PROBLEM_WITHOUT_BODY})
+
+
+def _budget(request: Mapping[str, object]) -> float:
+    """Seconds for which the server may compute."""
+    options = request.get("options")
+    given = options.get("time_budget_ms") if isinstance(options, Mapping) else None
+    default = 5000.0  # of the server, unless it is set otherwise
+    return (given if isinstance(given, int | float) and 0.0 <= given <= _MOST_BUDGET else default) / 1000.0
 
 
 def _as_error(problem: Mapping[str, object]) -> ProblemError:
@@ -223,10 +254,15 @@ def _as_error(problem: Mapping[str, object]) -> ProblemError:
 
 
 def _retry_after(header: str | None) -> float:
-    """Seconds. The header may have a date instead, which this service does not send."""
-    with contextlib.suppress(TypeError, ValueError):
-        return max(0.0, float(cast(str, header)))
-    return _RETRY_AFTER
+    """Seconds, never less than a wait that spares the server. The header has seconds, or a date (RFC 9110)."""
+    try:
+        seconds = float(header or "nan")
+    except ValueError:
+        try:
+            seconds = email.utils.parsedate_to_datetime(header or "").timestamp() - time.time()
+        except (TypeError, ValueError, OverflowError, IndexError):
+            seconds = math.nan
+    return _RETRY_AFTER if math.isnan(seconds) else max(_LEAST_WAIT, seconds)
 
 
 def _given(*parts: Mapping[str, object], **members: object) -> dict[str, object]:

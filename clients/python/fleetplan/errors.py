@@ -4,12 +4,44 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 
+_LONGEST = 200  # characters of a value in a message
+
+
 class FleetplanError(Exception):
     """The base of all exceptions of this package."""
 
 
 class ConnectionFailed(FleetplanError):
     """There is no answer: nobody listens, the connection ended, or the server was silent for too long."""
+
+
+class InvalidAnswer(ConnectionFailed):
+    """What came is no answer of the service: it is not JSON, not of the expected shape, or too large."""
+
+
+class InvalidValue(FleetplanError, ValueError):
+    """A value of the caller that cannot be used: a number that JSON does not have, a URL without a host, a plan without
+    dependencies."""
+
+
+class MessageRejected(FleetplanError):
+    """What one robot or vehicle has sent is not used. Nobody else is affected."""
+
+    def __init__(self, sender: str, reason: str) -> None:
+        self.sender, self.reason = sender, reason  # the sender: a robot, or the topic of a message
+        super().__init__(f"{shown(sender)}: {reason}")
+
+
+class VehicleUnavailable(FleetplanError):
+    """A vehicle cannot do what it is told, for now: it gets no goals until it can. Others go on."""
+
+    def __init__(self, robot: str, reason: str) -> None:
+        self.robot, self.reason = robot, reason
+        super().__init__(f"{shown(robot)} is not available: {reason}")
+
+
+class RoundFailed(FleetplanError):
+    """A round has ended by an error that is not foreseen."""
 
 
 class PlanDropped(FleetplanError):
@@ -49,7 +81,7 @@ class ProblemError(FleetplanError):
         self.request_id = str(problem.get("request_id", ""))
         self.faults = _faults(problem.get("errors"))  # the first twenty
         total = problem.get("errors_total", len(self.faults))
-        self.faults_total = total if isinstance(total, int) else len(self.faults)
+        self.faults_total = total if isinstance(total, int) and not isinstance(total, bool) else len(self.faults)
         super().__init__(str(self))
 
     def __str__(self) -> str:
@@ -63,9 +95,20 @@ class ProblemError(FleetplanError):
 class RequestRefused(ProblemError):
     """The request is at fault (4xx): sending it again changes nothing."""
 
+    robots: frozenset[str] = frozenset()  # raised by a loop: whose goals are at fault
+
 
 class ServiceUnavailable(ProblemError):
     """The service is busy or shutting down (503), for longer than the client waits."""
+
+
+def shown(value: object) -> str:
+    """For messages: what others have sent, without control characters, and cut."""
+    try:
+        text = ascii(value)
+    except RecursionError:
+        text = f"a {type(value).__name__} that is nested too deeply"
+    return text if len(text) <= _LONGEST else f"{text[:_LONGEST]}..."
 
 
 def problem_error(status: int, problem: Mapping[str, object]) -> ProblemError:
@@ -76,7 +119,7 @@ def problem_error(status: int, problem: Mapping[str, object]) -> ProblemError:
 
 
 def _faults(errors: object) -> tuple[Fault, ...]:
-    if not isinstance(errors, Sequence):
+    if not isinstance(errors, Sequence) or isinstance(errors, str):
         return ()
     return tuple(Fault(str(error.get("pointer", "")), str(error.get("code", "")), str(error.get("detail", "")))
                  for error in errors if isinstance(error, Mapping))

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from fleetplan.course import Course, Place, goals_of, limits_by_action, whole
+from fleetplan.errors import InvalidValue, shown
 from fleetplan.types import (Action, ActionProgress, AdvanceAnswer, MeasuredPose, PlanAnswer, PlanRequest,
                              Pose, Robot, RobotState, TightPair, Visit)
 
@@ -18,6 +19,9 @@ _REACHED = 1e-9  # of whole progress: rounding
 _SAME_TIME = 1e-9  # seconds
 _MARGIN_ROUNDING = 1e-9  # metres
 _TIGHT = 2.0  # seconds: how long after its least slack a pair is tight
+_FARTHEST = 1e9  # metres: the greatest coordinate of the service
+_FASTEST = 1e3  # metres per second
+_LONGEST = 1e8  # seconds
 
 
 @dataclass(frozen=True)
@@ -147,15 +151,21 @@ class Executor:
     # ---------------------------------------------------------------- what they do
 
     def report(self, report: Report, now: float) -> None:
-        progress = self._robots[report.robot]
+        """Raises InvalidValue if it is not a report of one of the robots, or has values that no robot has; then nothing
+        changes."""
+        progress = self._robots.get(report.robot) if _is_report(report) else None
+        if progress is None:
+            raise InvalidValue(f"{shown(report)} is no report of a robot of the fleet")
         if report.plan is not None and report.plan != self.plan and report.pose is None:
             return
+        course = progress.course
+        tells_action = report.action is not None and report.plan in (None, self.plan)
+        if tells_action and not 0 <= (report.action or 0) < max(1, len(course.actions)):
+            raise InvalidValue(f"{report.robot} has no action {report.action}")
         progress.report, progress.reported = report, now
         self._count_wait(report.robot, now)
-        course, before = progress.course, progress.place
-        if report.action is not None and report.plan in (None, self.plan):
-            if not 0 <= report.action < max(1, len(course.actions)) or not 0.0 <= report.progress <= 1.0:
-                raise ValueError(f"{report.robot} has no progress {report.progress} of an action {report.action}")
+        before = progress.place
+        if report.action is not None and tells_action:
             progress.place = min(course.end, max(before, report.action + report.progress))
         elif report.pose is not None:
             limit = min(self._limit(report.robot), self._first_not_due(progress, now))
@@ -187,6 +197,12 @@ class Executor:
                     measured["speed"] = progress.report.speed
                 poses.append(measured)
         return poses
+
+    def last_poses(self) -> list[MeasuredPose]:
+        """Where robots were measured last, whenever that was."""
+        return [{"robot": robot, "x": pose["x"], "y": pose["y"], "theta": pose["theta"]}
+                for robot, progress in self._robots.items()
+                if progress.report is not None and (pose := progress.report.pose) is not None]
 
     # ---------------------------------------------------------------- from plan to plan
 
@@ -223,8 +239,18 @@ class Executor:
         since then is done in the new plan. Returns the robots that cannot stop any more before a gate of it that is
         closed, as it was not known when they drove off. Then nothing changes: robots go on to the ends of their
         commitments, as the gates of their old plan allow, and the new one may be followed later."""
+        before = self._robots, self.start, self.plan
+        is_followed = False
+        try:
+            too_fast = self._go_on(request, answer, begin, now)
+            is_followed = not too_fast
+            return too_fast
+        finally:
+            if not is_followed:
+                self._robots, self.start, self.plan = before
+
+    def _go_on(self, request: PlanRequest, answer: PlanAnswer, begin: float, now: float) -> list[str]:
         old, committed_at, begins_at = self._robots, self._committed_at, self._begins_at
-        start, plan = self.start, self.plan
         ways = {robot: self._way_to_stop(robot) for robot in old}
         self._begin(request, answer, begin)
         for robot, progress in self._robots.items():
@@ -233,17 +259,14 @@ class Executor:
                 progress.place = progress.course.after(begins_at.get(robot, 0.0), done, self._near)
                 progress.report, progress.reported = old[robot].report, old[robot].reported
             progress.counted = now
-        too_fast = [robot for robot in self._robots if self._past_gate(robot) + ways.get(robot, 0.0) > self._near]
-        if too_fast:
-            self._robots, self.start, self.plan = old, start, plan
-        return too_fast
+        return [robot for robot in self._robots if self._past_gate(robot) + ways.get(robot, 0.0) > self._near]
 
     # ---------------------------------------------------------------- inside
 
     def _begin(self, request: PlanRequest, answer: PlanAnswer, begin: float) -> None:
         dependencies = answer.get("dependencies")
         if dependencies is None:
-            raise ValueError("the plan has no dependencies; ask for them with options.dependencies")
+            raise InvalidValue("the plan has no dependencies; ask for them with options.dependencies")
         self.start = begin
         self.plan += 1
         plans = {plan["robot"]: plan for plan in answer["plans"]}
@@ -441,6 +464,27 @@ class Executor:
             if progress.report is not None and progress.report.speed is not None:
                 state["speed"] = progress.report.speed
         return state
+
+
+def _is_report(report: object) -> bool:
+    """Whether it has the members of a report, with numbers that the service takes."""
+    if not isinstance(report, Report) or not isinstance(report.robot, str):
+        return False
+    numbers: list[tuple[object, float, float]] = [(report.progress, 0.0, 1.0)]
+    if report.action is not None:
+        numbers.append((report.action, 0.0, math.inf))
+    if report.plan is not None:
+        numbers.append((report.plan, -math.inf, math.inf))
+    if report.speed is not None:
+        numbers.append((report.speed, -_FASTEST, _FASTEST))
+    if report.service_left is not None:
+        numbers.append((report.service_left, 0.0, _LONGEST))
+    if report.pose is not None:
+        if not isinstance(report.pose, Mapping):
+            return False
+        numbers += [(report.pose.get(name), -_FARTHEST, _FARTHEST) for name in ("x", "y", "theta")]
+    return all(isinstance(value, int | float) and not isinstance(value, bool) and least <= value <= most
+               for value, least, most in numbers) and isinstance(report.action, int | None)
 
 
 def _execution_margin(request: PlanRequest, robot: Robot) -> float:

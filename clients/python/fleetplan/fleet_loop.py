@@ -6,13 +6,16 @@ import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import Future
 from dataclasses import dataclass
+from typing import Any
 
+from fleetplan.answers import what_is_given
 from fleetplan.client import Client
 from fleetplan.course import Place, limits_of
-from fleetplan.errors import FleetplanError, PlanDropped, RequestRefused
+from fleetplan.errors import FleetplanError, InvalidValue, MessageRejected, PlanDropped, RequestRefused, shown
 from fleetplan.executor import Executor, Instruction, Report
-from fleetplan.planning_loop import PlanningLoop
-from fleetplan.types import AdvanceAnswer, Hold, NewGoals, PlanAnswer, PlanOptions, PlanRequest
+from fleetplan.faults import OnFault
+from fleetplan.planning_loop import PlanningLoop, unforeseen
+from fleetplan.types import AdvanceAnswer, Hold, MeasuredPose, NewGoals, PlanAnswer, PlanOptions, PlanRequest
 
 # What a fleet needs that is planned again and again while its robots are late and a little beside their paths: slack
 # between robots in time and space, starts that may be measured too near to something, and no more than the next seconds
@@ -32,7 +35,8 @@ class _Round:
     begin: float
     ready: float  # not followed before, whenever it is made
     places: Mapping[str, Place]  # of robots at the moment
-    request: AdvanceAnswer | None = None  # of the moment, once it is known; written by the thread that plans
+    first: PlanRequest | None = None  # of the first plan; written by the thread that plans, as the next one is
+    request: AdvanceAnswer | None = None  # of the moment, once it is known
     committed: bool = False  # robots to what it commits them to
     passed: Sequence[str] = ()  # robots that were further by then
     future: "Future[PlanAnswer] | None" = None
@@ -43,23 +47,26 @@ class FleetLoop(PlanningLoop):
     """Plans a fleet, and plans it again while it drives. Call `step` several times per second, with what robots report,
     and send them the instructions that it returns.
 
-    A round that fails (no answer, a busy server) costs nothing but time: robots go on with the plan that they have.
+    A round that fails (no answer, a busy server, an answer that is none) costs nothing but time: robots go on with the
+    plan that they have. A report that cannot be used costs its robot this report.
     """
 
     def __init__(self, client: Client, request: PlanRequest, *, period: float = 1.0, commit: float | None = None,
                  clock: Callable[[], float] = time.monotonic, background: bool = True,
                  latency: float = 0.0, change: Callable[[PlanRequest], None] | None = None,
                  pose_tolerance: float | None = None, deceleration: float | Mapping[str, float] | None = None,
-                 reaction: float = 0.0, near: float = 0.01) -> None:
+                 reaction: float = 0.0, near: float = 0.01, on_fault: OnFault | None = None) -> None:
         """`period`: seconds from plan to plan; a plan that takes longer delays the next one. `commit`: what robots do
         within so many seconds is decided before each plan; by default, the time budget, half a second, and what the
         way to brake takes; if the request limits accelerations, the move under way, as every commitment ends at rest.
         `change` is called with each request before it is planned, in the thread that plans, to
         add obstacles, zones or robots.
         `clock`: seconds. `background`: plans are made in a thread, while robots go on; without it, `step` waits for
-        them, which simulations want; `latency` is then how long plans take on their clock, seconds. The others are
-        those of `Executor`."""
-        super().__init__(client, request, LOOP_OPTIONS, period=period, clock=clock, background=background, change=change)
+        them, which simulations want; `latency` is then how long plans take on their clock, seconds.
+        `on_fault` is called with each round that failed and each report that is not used, in the thread that has found
+        it; they are logged, too. The others are those of `Executor`."""
+        super().__init__(client, request, LOOP_OPTIONS, period=period, clock=clock, background=background, change=change,
+                         on_fault=on_fault)
         self.answer: PlanAnswer | None = None  # to the request
         self._latency = latency
         self._commit = commit
@@ -79,9 +86,8 @@ class FleetLoop(PlanningLoop):
         Raises RequestRefused if the first request, or goals that were given, are at fault; then these goals are
         dropped, and the loop goes on with the next call."""
         now = self._clock()
-        if self._executor is not None:
-            for report in reports:
-                self._executor.report(report, now)
+        for report in reports:
+            self._take_report(report, now)
         self._commit_robots()
         self._take_plan(now)
         if self._round is None and now >= self._due:
@@ -91,8 +97,18 @@ class FleetLoop(PlanningLoop):
             self._take_plan(now)
         return self._executor.instructions(now) if self._executor is not None else []
 
+    def _take_report(self, report: Report, now: float) -> None:
+        if self._executor is None:
+            return
+        try:
+            self._executor.report(report, now)
+        except InvalidValue as error:
+            self._faults.tell(MessageRejected(str(getattr(report, "robot", "a report")), str(error)))
+
     def hold(self, robot: str, seconds: float) -> None:
         """The robot stands where it is for so long, from the next round on. What it does until then is up to it."""
+        if not 0.0 <= seconds < math.inf:
+            raise InvalidValue(f"{shown(robot)} cannot be held for {seconds} s")
         self._holds[robot] = self._clock() + seconds
 
     @property
@@ -119,14 +135,15 @@ class FleetLoop(PlanningLoop):
         self._given, self._goals = self._goals, {}
         if self._executor is None:
             self._round = _Round(now, now + self._latency, {})
-            self._round.future = self._run(self._plan_first)
+            self._round.future = self._run(functools.partial(self._plan_first, self._round))
         else:
             self._round = _Round(now, now + self._latency, self._executor.places())
             advance = self._advance(self._executor, now)
             self._round.future = self._run(functools.partial(self._plan_next, self._round, advance))
 
-    def _plan_first(self) -> PlanAnswer:
-        return self._make_plan(self._first_request())
+    def _plan_first(self, round_: _Round) -> PlanAnswer:
+        round_.first = self._first_request()
+        return self._make_plan(round_.first)
 
     def _plan_next(self, round_: _Round, advance: Callable[[], AdvanceAnswer]) -> PlanAnswer:
         request = self._changed(advance())
@@ -142,16 +159,33 @@ class FleetLoop(PlanningLoop):
         holds += [{"robot": entry["robot"], "until": 0.0} for entry in self.answer["unplanned"]
                   if entry["reason"] == "invalid" and entry["robot"] not in self._holds]
         goals: list[NewGoals] = [{"robot": robot, "goals": given} for robot, given in self._given.items()]
-        return functools.partial(self._client.advance, self.request, self.answer, now - executor.start,
-                                 commit=self._commit, states=executor.states(now), poses=executor.poses(now),
-                                 holds=holds, goals=goals, pose_tolerance=self._pose_tolerance)
+        at = {"at": now - executor.start, "commit": self._commit, "pose_tolerance": self._pose_tolerance}
+        advance = functools.partial(self._client.advance, self.request, what_is_given(self.answer), **at)
+        standing = functools.partial(self._client.advance, self.request, {"plans": []}, **at)
+        parts = {"states": executor.states(now), "poses": executor.poses(now), "holds": holds, "goals": goals}
+        return functools.partial(self._next_request, advance, standing, self.request, parts, executor.last_poses())
+
+    def _next_request(self, advance: Callable[..., AdvanceAnswer], standing: Callable[..., AdvanceAnswer],
+                      request: PlanRequest, parts: dict[str, list[Any]], poses: list[MeasuredPose]) -> AdvanceAnswer:
+        """By the plan that there is. If that is refused, which should not have been followed, by no plan: robots are
+        where they were measured last, and have their goals."""
+        try:
+            return self._advanced(advance, request, parts)
+        except RequestRefused as error:
+            if not any(fault.pointer.startswith("/plans") for fault in error.faults):
+                raise
+            self._faults.tell(error)
+        return self._advanced(standing, request, {**parts, "states": [], "poses": poses})
 
     def _commit_robots(self) -> None:
         """Robots go on to the ends of their commitments, once these are known."""
         round_ = self._round
         if round_ is not None and round_.request is not None and not round_.committed and self._executor is not None:
             round_.committed = True
-            round_.passed = self._executor.commit(round_.request, round_.places, round_.begin)
+            try:
+                round_.passed = self._executor.commit(round_.request, round_.places, round_.begin)
+            except Exception as error:  # as in _take_plan
+                self._end_round(unforeseen(error))
 
     def _take_plan(self, now: float) -> None:
         """Goes on with the next plan if it is ready and robots can obey its gates. If they cannot yet, as another one
@@ -166,33 +200,37 @@ class FleetLoop(PlanningLoop):
             answer = round_.future.result()
             if round_.passed:
                 raise FleetplanError(f"{round_.passed} passed the ends of their commitments before these were known")
-            if self._executor is None:
-                self._executor = Executor(self.request, answer, now, early=False, deceleration=self._deceleration,
-                                          reaction=self._reaction, near=self._near)
-            elif round_.request is not None:
-                if too_fast := self._executor.follow(round_.request, answer, round_.begin, now):
-                    round_.dropped_from = min(round_.dropped_from, now + self._period)
-                    if now < round_.dropped_from - _SAME_TIME:
-                        return
-                    raise PlanDropped(f"{too_fast} could not stop before gates of the plan")
-                self.request = round_.request
+            if not self._follow(round_, answer, now):
+                return
         except FleetplanError as error:
-            self._round = None
-            self._fail(error)
-            return
-        self._round, self.failure, self._given, self.answer = None, None, {}, answer
+            self._end_round(error)
+        except Exception as error:  # a bug, or an answer that is wrong in a way that nobody has foreseen
+            self._end_round(unforeseen(error))
+        else:
+            self._round, self.failure, self._given, self.answer = None, None, {}, answer
 
-    def _fail(self, error: FleetplanError) -> None:
+    def _follow(self, round_: _Round, answer: PlanAnswer, now: float) -> bool:
+        """Goes on with the plan, if all robots can obey it; if not now, perhaps later."""
+        if self._executor is None:
+            assert round_.first is not None
+            self._executor = Executor(round_.first, answer, now, early=False, deceleration=self._deceleration,
+                                      reaction=self._reaction, near=self._near)
+            self.request = round_.first
+        elif round_.request is not None:
+            if too_fast := self._executor.follow(round_.request, answer, round_.begin, now):
+                round_.dropped_from = min(round_.dropped_from, now + self._period)
+                if now < round_.dropped_from - _SAME_TIME:
+                    return False
+                raise PlanDropped(f"{too_fast} could not stop before gates of the plan")
+            self.request = round_.request
+        return True
+
+    def _end_round(self, error: FleetplanError) -> None:
         """Goes on with the plan that there is."""
-        self.failure = error
-        given, self._given = self._given, {}
+        self._round = None
         if self._executor is not None:
             self._executor.release()
-        if isinstance(error, RequestRefused):
-            goals_at_fault = given and any("/goal" in fault.pointer for fault in error.faults)
-            if goals_at_fault or self._executor is None:
-                raise error
-        self._goals = {**given, **self._goals}
+        self._fail(error, is_first=self._executor is None)
 
 
 def _accelerates(request: PlanRequest) -> bool:

@@ -6,24 +6,33 @@ carries them.
 
 import datetime
 import functools
+import math
+import re
 import threading
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from concurrent.futures import Future
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Literal
 
+from fleetplan.answers import check_orders, check_states, what_is_given
 from fleetplan.client import Client
-from fleetplan.errors import FleetplanError, RequestRefused
+from fleetplan.errors import FleetplanError, InvalidValue, MessageRejected, RequestRefused, VehicleUnavailable
+from fleetplan.faults import OnFault
 from fleetplan.fleet_loop import LOOP_OPTIONS
-from fleetplan.planning_loop import PlanningLoop
-from fleetplan.types import (NewGoals, OrderBase, OrderProgress, PlanAnswer, PlanOptions, PlanRequest,
-                             Vda5050Answer, Vda5050States, VdaMessage, VehicleReport)
+from fleetplan.planning_loop import PlanningLoop, unforeseen
+from fleetplan.types import (AdvanceAnswer, Goal, NewGoals, OrderBase, OrderProgress, PlanAnswer, PlanOptions, PlanRequest,
+                             RobotState, Vda5050Answer, Vda5050States, VdaMessage, VehicleReport)
+from fleetplan.unavailable import put_aside, start_where_measured, unmeasured
+from fleetplan.vehicle_states import read_state, sender_of
 
 # Those of a FleetLoop, but vehicles follow edges exactly, and may stand as near to each other as they like. For others,
 # `inflation` and `execution_margin` have to be the same, so that vehicles keep the distance that plans keep.
 VDA_OPTIONS: PlanOptions = LOOP_OPTIONS.copy()
 VDA_OPTIONS["inflation"] = VDA_OPTIONS["execution_margin"] = 0.0
+
+# Why a vehicle takes no orders, of the reasons that the service names. Others pass by themselves, or with another order.
+_LASTING = frozenset({"not_reported", "operating_mode", "emergency_stop", "paused", "not_localized", "other_map", "error"})
 
 _HEADER = ("headerId", "timestamp", "version", "manufacturer", "serialNumber")
 
@@ -49,6 +58,7 @@ class _Plan:
     base: Sequence[OrderBase]  # the orders that vehicles had when it began
     progress: dict[str, OrderProgress]
     tight: frozenset[str]  # robots for which dependencies do not suffice: they go no further than they may already
+    aside: dict[str, list[Goal]] = field(default_factory=dict)  # goals of robots that are not available
 
 
 class VdaLoop(PlanningLoop):
@@ -56,28 +66,39 @@ class VdaLoop(PlanningLoop):
     several times per second, and send the messages that it returns.
 
     What is released of an order cannot be taken back, so a plan is made from there on, and nothing is released while
-    it is made. A round that fails costs nothing but time: vehicles go on with the plan that they have.
+    it is made. A round that fails costs nothing but time: vehicles go on with the plan that they have. A state that
+    cannot be read costs its vehicle this state. A vehicle that is not available gets no orders, and its goals are put
+    aside until it is.
     """
 
     def __init__(self, client: Client, request: PlanRequest, *, manufacturer: str,
                  manufacturers: Mapping[str, str] | None = None, version: Literal["2.1.0", "3.0.0"] = "2.1.0",
                  serial_numbers: Mapping[str, str] | None = None, map_id: str | None = None,
                  map_ids: Mapping[str, str] | None = None, release_ahead: float = 5.0, period: float = 2.0,
-                 clock: Callable[[], float] = time.monotonic, background: bool = True,
-                 change: Callable[[PlanRequest], None] | None = None) -> None:
+                 wait: float = 30.0, clock: Callable[[], float] = time.monotonic, background: bool = True,
+                 change: Callable[[PlanRequest], None] | None = None, on_fault: OnFault | None = None) -> None:
         """`release_ahead`: seconds of its plan that a vehicle may go on before the next release. It bounds what a new
         plan cannot change; vehicles stop for a moment if planning takes longer. `period`: seconds from plan to plan.
-        `change` is called with each request before it is planned, in the thread that plans."""
-        super().__init__(client, request, VDA_OPTIONS, period=period, clock=clock, background=background, change=change)
+        `wait`: seconds for which the first plan waits for vehicles that have not reported.
+        `change` is called with each request before it is planned, in the thread that plans. `on_fault` is called with
+        each round that failed, state that is not used, and vehicle that is not available, in the thread that has found
+        it; they are logged, too."""
+        super().__init__(client, request, VDA_OPTIONS, period=period, clock=clock, background=background, change=change,
+                         on_fault=on_fault)
         self._header: dict[str, Any] = {"version": version, "manufacturer": manufacturer,
                                         "manufacturers": manufacturers, "map_id": map_id, "map_ids": map_ids,
                                         "serial_numbers": serial_numbers, "release_ahead": release_ahead}
         ids = [robot["id"] for robot in request["robots"]]
         self._vehicles = {robot: ((manufacturers or {}).get(robot, manufacturer), (serial_numbers or {}).get(robot, robot))
                           for robot in ids}
+        self._robots = {vehicle: robot for robot, vehicle in self._vehicles.items()}
+        self._idle = {robot["id"]: robot.get("idle") for robot in request["robots"]}
         self.cancelled: dict[str, str] = {}  # why orders were cancelled, by robot, until it has another one
+        self.unavailable: dict[str, str] = {}  # why vehicles are not available, by robot
         self.rounds = 0  # that have succeeded
+        self._wait, self._waits_since = wait, math.inf
         self._states: dict[str, VdaMessage] = {}  # by robot, the last ones
+        self._imported: dict[str, VdaMessage] = {}  # by robot, the last ones that the service has read
         self._lock = threading.Lock()  # of the states
         self._orders: dict[str, VdaMessage] = {}  # the last messages, by robot
         self._cancels: dict[str, str] = {}  # ids of the actions that cancel orders, by robot
@@ -88,24 +109,39 @@ class VdaLoop(PlanningLoop):
     # ---------------------------------------------------------------- the loop
 
     def take(self, state: VdaMessage) -> None:
-        """A vehicle reports. Any thread may call this."""
-        of_serial = [(robot, make) for robot, (make, serial) in self._vehicles.items() if serial == state.get("serialNumber")]
-        for robot, make in of_serial:
-            if len(of_serial) == 1 or make == state.get("manufacturer"):
-                with self._lock:
-                    self._states[robot] = state
+        """A vehicle reports. Any thread may call this. A message that cannot be read, or is of no vehicle of the fleet,
+        is not used, and told."""
+        try:
+            read = read_state(state)
+            robot = self._robot_of(read)
+        except InvalidValue as error:
+            self._faults.tell(MessageRejected(sender_of(state), f"its state {error}"))
+            return
+        read["manufacturer"], read["serialNumber"] = self._vehicles[robot]
+        with self._lock:
+            self._states[robot] = read
+
+    def _robot_of(self, state: VdaMessage) -> str:
+        """By serial number; by the make, too, unless the vehicle does not say it, and no other make has the number."""
+        make, serial = state.get("manufacturer"), state.get("serialNumber")
+        robots = [robot for (its_make, its_serial), robot in self._robots.items()
+                  if its_serial == serial and make in (None, its_make)]
+        if len(robots) != 1:
+            raise InvalidValue("is of no vehicle of the fleet")
+        return robots[0]
 
     def step(self) -> list[Message]:
-        """The messages to send now. Before all vehicles have reported, none.
+        """The messages to send now. Before all vehicles have reported, or `wait` is over, none.
 
         Raises RequestRefused if the first request, or goals that were given, are at fault; then these goals are
         dropped, and the loop goes on with the next call."""
         now = self._clock()
         messages: list[Message] = []
-        if len(self._states) < len(self._vehicles):
+        if self._plan is None and not self._have_reported(now):
             return messages
         if self._round is None:
             messages += self._release()
+            messages += self._cancel_failed()
             if now >= self._due:
                 self._due = now + self._period
                 self._begin_round(now)
@@ -126,12 +162,13 @@ class VdaLoop(PlanningLoop):
 
     @property
     def idle(self) -> list[str]:
-        """Robots that have served all goals that they were given, and whose vehicles have not failed."""
+        """Robots that have served all goals that they were given, and whose vehicles are available."""
         if self._plan is None:
             return []
         goes_on = {plan["robot"] for plan in self._plan.answer["plans"] if "ends_at" in plan}
         unplanned = {entry["robot"] for entry in self._plan.answer["unplanned"]}
         busy = goes_on | unplanned | self._goals.keys() | self._given.keys() | self._cancels.keys()
+        busy |= self.unavailable.keys() | self._plan.aside.keys()
         return [robot for robot, report in self._reports.items()
                 if report["arrived"] and not report["failed"] and robot not in busy]
 
@@ -140,20 +177,93 @@ class VdaLoop(PlanningLoop):
         """Robots whose vehicles report that they cannot go on, or have refused an order."""
         return [robot for robot, report in self._reports.items() if report["failed"]]
 
+    def _have_reported(self, now: float) -> bool:
+        """Whether all vehicles have, or those that have not are not waited for any more."""
+        self._waits_since = min(self._waits_since, now)
+        with self._lock:
+            silent = self._vehicles.keys() - self._states.keys()
+        if silent and now - self._waits_since < self._wait:
+            return False
+        self._set_unavailable(dict.fromkeys(sorted(silent), "it has not reported"))
+        return True
+
+    def _set_unavailable(self, reasons: dict[str, str]) -> None:
+        for robot, reason in reasons.items():
+            if self.unavailable.get(robot) != reason:
+                self._faults.tell(VehicleUnavailable(robot, reason))
+        self.unavailable = reasons
+
     # ---------------------------------------------------------------- orders
 
     def _import(self, plan: _Plan) -> Vda5050States:
         """How far vehicles are; what is known of their orders is brought up to date."""
         with self._lock:
-            messages = list(self._states.values())
-        found = self._client.import_vda5050(plan.request, plan.answer, messages, timestamp=plan.timestamp,
-                                            base=plan.base, progress=list(plan.progress.values()), **self._header)
-        plan.progress = {entry["robot"]: entry for entry in found["progress"]}
+            reported = dict(self._states)
+        found = self._read_states(plan, reported)
+        plan.progress.update({entry["robot"]: entry for entry in found["progress"]})
         self._reports = {report["robot"]: report for report in found["vehicles"]}
+        self._imported = reported
+        self._tell(found)
         for robot, entry in plan.progress.items():
-            if robot in self._cancels and "order_id" not in entry:  # it stands
-                del self._cancels[robot], self._orders[robot]
+            if robot in self._orders and "order_id" not in entry:  # it is cancelled, and the vehicle stands, or it is lost
+                self._forget(robot)
         return found
+
+    def _read_states(self, plan: _Plan, reported: dict[str, VdaMessage]) -> Vda5050States:
+        """What the service reads of the states. Those that it refuses are left out of `reported`, or are the ones
+        before, and told."""
+        while True:
+            robots = list(reported)
+            try:
+                found = self._client.import_vda5050(plan.request, self._given_plans(plan), list(reported.values()),
+                                                    timestamp=plan.timestamp, base=plan.base,
+                                                    progress=list(plan.progress.values()), **self._header)
+                check_states(plan.request, found)
+                return found
+            except RequestRefused as error:
+                refused = {robots[int(index)]: fault.detail for fault in error.faults
+                           for index in re.findall(r"^/messages/(\d{1,9})(?:/|$)", fault.pointer)
+                           if int(index) < len(robots)}
+                if not refused:
+                    raise
+            for robot, detail in refused.items():
+                self._faults.tell(MessageRejected(robot, detail))
+                self._leave_out(robot, reported)
+
+    def _leave_out(self, robot: str, reported: dict[str, VdaMessage]) -> None:
+        refused, before = reported.pop(robot), self._imported.get(robot)
+        if before is refused:
+            before = None
+        if before is not None:
+            reported[robot] = before
+        with self._lock:
+            if self._states.get(robot) is refused:
+                self._states.pop(robot)
+                if before is not None:
+                    self._states[robot] = before
+
+    def _forget(self, robot: str) -> None:
+        """The robot's order is over."""
+        self._orders.pop(robot, None)
+        self._cancels.pop(robot, None)
+
+    def _tell(self, found: Vda5050States) -> None:
+        """What is wrong with states, and which vehicles are not available."""
+        reasons: dict[str, str] = {}
+        for report in found["vehicles"]:
+            robot = report["robot"]
+            for fault in report.get("errors", []):
+                self._faults.tell(MessageRejected(robot, fault["detail"]))
+            told = report["availability"]["reasons"] if "availability" in report else []
+            lasting = [reason["detail"] for reason in told if reason["reason"] in _LASTING]
+            if lasting or report["failed"]:
+                reasons[robot] = " ".join(lasting) or "It has failed."
+        self._set_unavailable(reasons)
+
+    def _cancel_failed(self) -> list[Message]:
+        """Vehicles that cannot go on with an order, have refused it, or failed to do an action of it, get another one for
+        what is left, as soon as they can."""
+        return [message for robot in self.failed for message in self.cancel(robot, "it has failed")]
 
     def _end_orders(self, plan: _Plan) -> None:
         """Vehicles that have done all get new orders with the next plan: no order goes on for a whole day. One that
@@ -172,21 +282,30 @@ class VdaLoop(PlanningLoop):
         try:
             self._import(self._plan)
             exported = self._export(self._plan)
+            # A vehicle whose order was cancelled gets another one with the next plan, which begins where it stands.
+            return self._published(self._plan, exported, self._orders.keys())
         except FleetplanError as error:
             self.failure = error
-            return []
-        # A vehicle whose order was cancelled gets another one with the next plan, which begins where it stands.
-        return self._published(self._plan, exported, set(self._orders))
+        except Exception as error:  # a bug, or an answer that is wrong in a way that nobody has foreseen
+            self.failure = unforeseen(error)
+        self._faults.tell(self.failure)
+        return []
 
     def _export(self, plan: _Plan) -> Vda5050Answer:
-        return self._client.export_vda5050(plan.request, plan.answer, timestamp=plan.timestamp, base=plan.base,
-                                           progress=list(plan.progress.values()), **self._header)
+        exported = self._client.export_vda5050(plan.request, self._given_plans(plan), timestamp=plan.timestamp,
+                                               base=plan.base, progress=list(plan.progress.values()), **self._header)
+        check_orders(plan.request, exported)
+        return exported
 
-    def _published(self, plan: _Plan, exported: Vda5050Answer, robots: set[str]) -> list[Message]:
+    def _given_plans(self, plan: _Plan) -> Any:
+        """What the service needs of the plan."""
+        return {**what_is_given(plan.answer), "dependencies": plan.answer.get("dependencies")}
+
+    def _published(self, plan: _Plan, exported: Vda5050Answer, robots: Collection[str]) -> list[Message]:
         messages = []
         for entry in exported["orders"]:
             robot, order = entry["robot"], entry["order"]
-            if robot not in robots or robot in plan.tight:
+            if robot not in robots or robot in plan.tight or robot in self.unavailable:
                 continue
             first = entry["nodes"][0]
             known = plan.progress.setdefault(
@@ -208,39 +327,56 @@ class VdaLoop(PlanningLoop):
 
     def _begin_round(self, now: float) -> None:
         self._given, self._goals = self._goals, {}
-        if self._plan is None:
-            self._round = self._run(functools.partial(self._first_plan, now))
-            return
         try:
-            self._round = self._run(self._next(self._plan, now))
+            out = dict(self.unavailable)
+            make: Callable[[], _Plan] = functools.partial(self._first_plan, out, now)
+            if self._plan is not None:
+                make = self._next(self._plan, now)
+            self._round = self._run(make)
         except FleetplanError as error:
-            self._fail(error)
+            self._fail(error, is_first=self._plan is None)
+        except Exception as error:  # as in _release
+            self._fail(unforeseen(error), is_first=self._plan is None)
 
     def _next(self, plan: _Plan, now: float) -> Callable[[], _Plan]:
         """What makes the plan of this moment."""
         self._import(plan)
         self._end_orders(plan)
         states = self._import(plan)
-        with self._lock:
-            reported = dict(self._states)
-        base: list[OrderBase] = [
-            {"robot": robot, "order": self._orders[robot], "state": reported[robot]}
-            for robot, entry in plan.progress.items() if "order_id" in entry]
-        goals: list[NewGoals] = [{"robot": robot, "goals": given} for robot, given in self._given.items()]
-        advance = functools.partial(self._client.advance, plan.request, plan.answer, now - plan.begin,
-                                    states=states["states"], poses=states["poses"], goals=goals)
-        return functools.partial(self._next_plan, advance, base, now)
+        out = dict(self.unavailable)
+        base: list[OrderBase] = []
+        for robot, entry in plan.progress.items():
+            if "order_id" in entry:
+                order: OrderBase = {"robot": robot, "order": self._orders[robot]}
+                if robot in self._imported:
+                    order["state"] = self._imported[robot]
+                base.append(order)
+        goals: list[NewGoals] = [{"robot": robot, "goals": [] if robot in out else given}
+                                 for robot, given in self._given.items()]
+        # Where one that cannot go on is measured does not matter as long as it may still drive what is released.
+        bound = {entry["robot"] for entry in base} & (out.keys() | self._cancels.keys())
+        parts = {"states": [unmeasured(state) if state["robot"] in bound else state for state in states["states"]],
+                 "poses": states["poses"], "goals": goals}
+        advance = functools.partial(self._client.advance, plan.request, what_is_given(plan.answer), now - plan.begin)
+        waiting = {**plan.aside, **{robot: given for robot, given in self._given.items() if robot in out}}
+        return functools.partial(self._next_plan, plan, advance, parts, base, out, waiting, now)
 
-    def _first_plan(self, now: float) -> _Plan:
-        return self._planned(self._first_request(), [], now)
+    def _first_plan(self, out: Collection[str], now: float) -> _Plan:
+        return self._planned(self._first_request(), [], out, {}, now)
 
-    def _next_plan(self, advance: Callable[[], PlanRequest], base: Sequence[OrderBase], now: float) -> _Plan:
-        return self._planned(self._changed(advance()), base, now)
+    def _next_plan(self, plan: _Plan, advance: Callable[..., AdvanceAnswer], parts: dict[str, list[Any]],
+                   base: Sequence[OrderBase], out: Collection[str], waiting: Mapping[str, list[Goal]],
+                   now: float) -> _Plan:
+        request = self._advanced(advance, plan.request, parts)
+        start_where_measured(request, [*parts["states"], *parts["poses"]], {entry["robot"] for entry in base})
+        return self._planned(self._changed(request), base, out, waiting, now)
 
-    def _planned(self, request: PlanRequest, base: Sequence[OrderBase], now: float) -> _Plan:
+    def _planned(self, request: PlanRequest, base: Sequence[OrderBase], out: Collection[str],
+                 waiting: Mapping[str, list[Goal]], now: float) -> _Plan:
+        aside = put_aside(request, out, waiting, self._idle)
         answer = self._make_plan(request)
         tight = frozenset(robot for pair in answer.get("tight") or [] for robot in pair["robots"])
-        return _Plan(request, answer, now, _timestamp(), base, {}, tight)
+        return _Plan(request, answer, now, _timestamp(), base, {}, tight, aside)
 
     def _take_plan(self) -> list[Message]:
         """Goes on with the next plan if it is ready, and if all orders can be continued by it."""
@@ -251,14 +387,18 @@ class VdaLoop(PlanningLoop):
             plan = future.result()
             plan.progress = {entry["robot"]: self._progress_of(entry) for entry in plan.base}
             exported = self._export(plan)
+            if exported["cancel_orders"]:
+                return self._cancel_all(exported)
+            self.failure, self._given, self._plan, self.request = None, {}, plan, plan.request
+            for report in self._reports.values():
+                report["arrived"] = False  # that was in the plan before
+            self.rounds += 1
+            return self._published(plan, exported, self._vehicles.keys())
         except FleetplanError as error:
-            self._fail(error)
-            return []
-        if exported["cancel_orders"]:
-            return self._cancel_all(exported)
-        self.failure, self._given, self._plan, self.request = None, {}, plan, plan.request
-        self.rounds += 1
-        return self._published(plan, exported, set(self._vehicles))
+            self._fail(error, is_first=self._plan is None)
+        except Exception as error:  # as in _release
+            self._fail(unforeseen(error), is_first=self._plan is None)
+        return []
 
     def _progress_of(self, base: OrderBase) -> OrderProgress:
         """An order at the begin of a plan."""
@@ -282,16 +422,6 @@ class VdaLoop(PlanningLoop):
         self._goals = {**self._given, **self._goals}
         self._given = {}
         return messages
-
-    def _fail(self, error: FleetplanError) -> None:
-        """Goes on with the plan that there is."""
-        self.failure = error
-        given, self._given = self._given, {}
-        if isinstance(error, RequestRefused):
-            goals_at_fault = given and any("/goal" in fault.pointer for fault in error.faults)
-            if goals_at_fault or self._plan is None:
-                raise error
-        self._goals = {**given, **self._goals}
 
 
 def _timestamp() -> str:
