@@ -293,8 +293,10 @@ int map_to_request(const std::string& yaml, const std::string& robots, const std
   const auto request = api::parse_request(body, limits, work);
   if (!request) return refuse(request.failure(), *map, *table, streams);
   for (const std::string& line : map->ignored) streams.err << line << '\n';
-  for (const std::string& warning : request->warnings)
-    streams.err << input_fault(robots, 0, warning).line << '\n';
+  for (const std::string& warning : request->warnings) {
+    const bool is_of_map = warning.find("map.image") != std::string::npos;
+    streams.err << input_fault(is_of_map ? yaml : robots, 0, warning).line << '\n';
+  }
   return write_output(output, body, streams);
 }
 

@@ -49,8 +49,8 @@ const BEYOND_SCHEMA = {
   out_of_range: anyOf(
     // settings of the server; sizes in metres; order; numbers of actions, nodes and runs; numbers beyond doubles
     "/map/(rows|movingai|resolution)",
-    "/map/image/(pgm|png|resolution|occupied_thresh|free_thresh)",
-    "/zones/\\d+/mask/(pgm|png|occupied_thresh|free_thresh)",
+    "/map/image/(pgm|png|resolution|origin/2|occupied_thresh|free_thresh)",
+    "/zones/\\d+/mask(/(pgm|png|origin/2|occupied_thresh|free_thresh))?",
     "/map/occupancy_grid/info/(width|resolution|origin/orientation)",
     "/options/lattice_spacing",
     "/robots",

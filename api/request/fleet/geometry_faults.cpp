@@ -22,6 +22,8 @@ using FaultKind = core::ProblemFault::Kind;
 /// than placed wrongly.
 constexpr double kShareOfAll = 0.5;
 constexpr std::size_t kFewestFaults = 2;
+/// A disk that overlaps a wall by this share of its radius is in it, and not only too near.
+constexpr double kDeep = 0.99;
 /// Poses between two looks at the stop condition.
 constexpr std::size_t kPosesBetweenPolls = 16;
 
@@ -124,12 +126,14 @@ std::string common_cause(const core::ProblemFaults& faults, const Fleet& fleet,
                          const core::StopCondition& stop) {
   std::set<std::size_t> at_fault;
   bool any_wall = false;
+  bool any_deep = false;  // a centre is in a wall, or off the map
   bool all_of_walls = true;
   bool half_parts_pairs = true;  // with half the radii, the disks of the pairs would not overlap
   for (const core::ProblemFault& found : faults.listed) {
     if (!is_of_wall(found) && !is_of_pair(found.kind)) return "";
     at_fault.insert(found.robot);
     any_wall = any_wall || is_of_wall(found);
+    any_deep = any_deep || (is_of_wall(found) && found.gap <= -kDeep * found.radius);
     if (!is_of_pair(found.kind)) continue;
     all_of_walls = false;
     at_fault.insert(found.other);
@@ -145,7 +149,7 @@ std::string common_cause(const core::ProblemFaults& faults, const Fleet& fleet,
   if (are_many && half_parts_pairs && (is_whole || all_of_walls) && trial.all_fit(false, 0.5)) {
     return " With half the radii, all starts and goals would fit: is radius given as the diameter?";
   }
-  if (any_wall && all_of_walls && trial.all_fit(true, 1.0)) {
+  if (any_wall && all_of_walls && (any_deep || are_many) && trial.all_fit(true, 1.0)) {
     return " With y mirrored, all starts and goals would fit: y points up, and the first of rows is the top "
            "one.";
   }
@@ -187,7 +191,8 @@ std::string in_obstacle(const std::string& pose, double radius, double gap, cons
 /// Returns a length for a remedy, rounded up to millimetres.
 std::string rounded_up(double length) {
   constexpr double kPerMetre = 1e3;
-  return number_text(std::ceil(length * kPerMetre) / kPerMetre);
+  constexpr double kRounding = 1e-4;  // millimetres, less than a contact
+  return number_text(std::ceil(length * kPerMetre - kRounding) / kPerMetre);
 }
 
 /// Returns a coordinate in the world of NearestGoals, which has six decimals at most.
