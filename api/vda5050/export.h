@@ -37,6 +37,7 @@ struct OrderBase {
   std::vector<core::Position> still_to_do;  // the released nodes that the vehicle has not reached, in order
   std::vector<JsonReader> released;         // the released nodes, as they were sent
   bool has_horizon = false;                 // it has nodes that are not released
+  bool is_unsure = false;                   // the vehicle may have reached some that are still to do
   bool is_known = false;                    // the vehicle has reported of it before
 };
 

@@ -124,7 +124,7 @@ bool OrderTracker::has_arrived() const {
   if (actions_.empty() || route_.nodes.empty()) return true;
   const std::size_t last = route_.nodes.size() - 1;
   const RouteNode& end = route_.nodes.back();
-  if (place_to_plan_from(progress_.at) < progress_.at) return false;
+  if (has_order() ? !failed_.empty() : place_to_plan_from(progress_.at) < progress_.at) return false;
   if (has_order() && counts()) return reached() == last && outcome(last) == Outcome::done;
   return !(progress_.at < (end.stops.empty() ? end.at : end.until));
 }

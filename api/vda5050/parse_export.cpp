@@ -29,6 +29,7 @@ class BaseReader {
     base_.is_known = order_id && order_id == order_.find("orderId").string();
     const bool has_node = !state.find("lastNodeId").string().value_or("").empty();
     if (base_.is_known && has_node) reached_ = state.find("lastNodeSequenceId").natural();
+    base_.is_unsure = state && !reached_;
   }
 
   /// Reads the order; none if it has a fault.
@@ -151,7 +152,12 @@ std::optional<std::string> why_it_ends(const OrderBase& base, const core::Robot&
   const core::Actions committed = actions.first(count);
   std::vector<core::Position> nodes = base.still_to_do;
   if (!nodes.empty()) nodes.pop_back();  // where the motion ends
-  if (!passes_all(committed, nodes, work)) {
+  bool passes = passes_all(committed, nodes, work);
+  while (!passes && base.is_unsure && !nodes.empty() && !work.met()) {
+    nodes.erase(nodes.begin());
+    passes = passes_all(committed, nodes, work);
+  }
+  if (!passes) {
     return "The robot is not committed to pass the released nodes of order " + in_quotes(base.order_id) + ".";
   }
   if (closed < last_stand(committed)) {

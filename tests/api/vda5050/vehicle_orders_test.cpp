@@ -58,7 +58,8 @@ const std::vector<Refusal> kRefusals{
 Json error_of(const char* text, const std::string& order_id) {
   Json error = Json::parse(text);
   error["errorLevel"] = "WARNING";
-  for (const auto& item : error.value("refs", Json::object()).items()) {
+  const Json references = error.value("refs", Json::object());
+  for (const auto& item : references.items()) {
     const Json& value = item.value();
     error["errorReferences"].push_back(
         {{"referenceKey", item.key()}, {"referenceValue", value == "=" ? Json(order_id) : value}});
@@ -334,7 +335,7 @@ TEST(Export, HasWhatTheVersionHas) {
     EXPECT_FALSE(node["actions"][1].contains("retriable"));
     EXPECT_EQ(node["actions"][1]["blockingType"], "SOFT");
     EXPECT_EQ(pick["actionParameters"].dump(),
-              R"([{"key":"list","value":[1,[]]},{"key":"side","value":{"right":1}}])");
+              R"([{"key":"side","value":{"right":1}},{"key":"list","value":[1,[]]}])");
     const Json round = Json::parse(R"({"a": 0.05, "b": 0.05, "theta": 0.0})");
     EXPECT_EQ(node["nodePosition"]["allowedDeviationXY"], is_v3 ? round : Json(0.05));
   }
