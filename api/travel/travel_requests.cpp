@@ -117,6 +117,7 @@ core::ProblemConditions conditions_of(const core::PlanOptions& options,
 /// soon as it does.
 template <typename Look>
 bool for_each_part(std::size_t rows, std::size_t columns, const Look& look) {
+  // Bounded: a part has thousands of poses, and `look` ends with the stop condition.
   for (std::size_t row = 0; row < rows; row += kPosesOfAPart) {
     for (std::size_t column = 0; column < columns; column += kPosesOfAPart) {
       if (!look(row, std::min(kPosesOfAPart, rows - row), column, std::min(kPosesOfAPart, columns - column)))
