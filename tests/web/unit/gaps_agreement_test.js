@@ -111,7 +111,7 @@ function robotAt(at, last) {
 function randomRequest() {
   const shift = Math.floor(8 * random());
   const robots = Array.from({ length: 8 }, (_, at) => robotAt(at, (at * 3 + shift) % 8));
-  const options = { invalid_robots: "report", time_budget_ms: 1000 };
+  const options = { invalid_robots: "report", time_budget_ms: 10_000 };
   return { map: { rows: ROWS }, robots, options };
 }
 
