@@ -82,10 +82,10 @@ double brakes_from(const Actions& chain, double t) {
 }
 
 /// The time at which actions are cut: the begin or the end of the action under way, if there is less of it on
-/// that side than an action has.
+/// that side than an action has. One with a profile is not cut: the robot brakes.
 double cut_time(const Actions& actions, double t) {
   for (const Action& action : actions) {
-    if (t <= action.t_start || t >= action.t_end) continue;
+    if (action.profile || t <= action.t_start || t >= action.t_end) continue;
     if (left_of(action, t) < core::kLeastAction) return action.t_end;
     const Action done = part_until(action, t);
     const bool waits = action.type == Action::Type::wait;
