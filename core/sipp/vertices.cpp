@@ -203,6 +203,9 @@ void Vertices::replace_start(const Instance& instance, std::size_t robot) {
   start_ = at_goal ? goal : own_.add_start(robot);
 }
 
+Vertices::Vertices(const Instance& instance, std::size_t robot, std::size_t stage, const StopCondition& stop)
+    : Vertices(instance, robot, instance.itinerary(robot), stage, stop) {}
+
 Vertices::Vertices(const Instance& instance, std::size_t robot, const Itinerary& itinerary, std::size_t stage,
                    const StopCondition& stop)
     : Vertices(instance, robot, stage) {

@@ -114,7 +114,8 @@ class Vertices {
  public:
   /// The view with the load of the robot in a stage, see RobotStages.
   /// If `stop` is met first, the view is not finished() and must not be used.
-  /// `itinerary`: of the robot; its begin and its loads are those of the instance.
+  Vertices(const Instance& instance, std::size_t robot, std::size_t stage, const StopCondition& stop);
+  /// With other goals, those of `itinerary`; its begin is that of the instance, and the robot has one load.
   Vertices(const Instance& instance, std::size_t robot, const Itinerary& itinerary, std::size_t stage,
            const StopCondition& stop);
   /// The view with one goal and without a start, until replace_start() gives one: for robots that are alike,

@@ -69,8 +69,8 @@ class Fleet {
       if (goal && dice_.chance(0.2)) execution.goals = {*goal};
     }
     core::Work stop = core::Work::unbounded();
-    const auto braking = braking_of(problem_.robots(), executions, moment, stop);
-    return advanced(problem_.robots(), executions, moment, braking, stop);
+    Motions motions{braking_of(problem_.robots(), executions, moment, stop)};
+    return advanced(problem_.robots(), executions, moment, motions, stop);
   }
 
   /// Returns whether the fleet is one that can be planned for: a late robot may be where another one is.

@@ -42,7 +42,9 @@ constexpr std::size_t kMebibytesOfNone = std::size_t{1} << 30;
 TEST(BoundedWork, IsPutOffWhenTheProcessHasNoMemoryForWhatIsGranted) {
   for (const bool any_refused : {false, true}) {
     const Reply reply = bounded_work(context_with(2 * kMebibytesOfNone), [&](core::Work& /*work*/) {
-      if (any_refused) EXPECT_THROW(block(4 * kMebibytesOfNone), std::bad_alloc);
+      if (any_refused) {
+        EXPECT_THROW(block(4 * kMebibytesOfNone), std::bad_alloc);
+      }
       block(kMebibytesOfNone);
       return Reply{};
     });
