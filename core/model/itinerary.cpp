@@ -114,6 +114,7 @@ void mark_services(const Robot& robot, std::vector<Action>& actions, std::size_t
   std::vector<Action> marked;
   marked.reserve(actions.size());
   auto next = services.begin();
+  // Bounded: services follow one another, and so do actions; each looks at those of its own time.
   for (std::size_t k = 0; k < actions.size(); ++k) {
     Action action = actions[k];
     const double shortest = std::min(kLeastAction, 0.5 * (action.t_end - action.t_start));

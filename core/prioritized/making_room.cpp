@@ -55,6 +55,7 @@ class MakingRoom {
     const FleetReservations::Snapshot before = reservations_.snapshot();
     if (make_room_for_any_two()) {
       replan_for_less(state_, robots_, stop_);
+      progress_.next_attempt();
       progress_.update();
       return true;
     }
@@ -124,6 +125,7 @@ class MakingRoom {
     if (!met) return {};
     const double distance = reach(robots_[first], robots_[second]);
     std::vector<Site> sites;
+    // Bounded: the moves of one trajectory, and a few places along each.
     for (const TimedMove& move : alone[first].moves) {
       const double length = move.path.length();
       if (!(length > kSamePosition)) continue;
@@ -176,7 +178,6 @@ class MakingRoom {
   bool pass(std::size_t first, std::size_t second, const PassingPlaces& places) {
     const double reserved = instance_.options().start_safe_interval;
     for (const std::size_t robot : robots_) reservations_.reserve_place(robot, reserved);
-    progress_.next_attempt();
     const bool both = drive_through(first, places.first) &&
                       (drive_through(second, places.second) ||
                        (wait_in(first, places.first) && drive_through(second, places.second) &&

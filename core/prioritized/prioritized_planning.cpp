@@ -165,7 +165,6 @@ class PrioritizedPlanning {
   /// Returns whether it keeps a plan in which all robots but those that are given up move in steps.
   bool moves_in_steps(const std::vector<std::size_t>& given_up) {
     if (!steps_succeed(given_up, time_.keeping)) return false;
-    ++result_.attempts;
     keep_if_better({}, given_up, Effort::brief, time_.keeping);
     return true;
   }
@@ -174,6 +173,7 @@ class PrioritizedPlanning {
     const StepsOutcome outcome =
         follow_steps(state_.reservations(), order_, staying, random_, stop, progress_);
     result_.cut_off = result_.cut_off || outcome == StepsOutcome::cut_off;
+    if (outcome == StepsOutcome::followed) ++result_.attempts;
     return outcome == StepsOutcome::followed;
   }
 
@@ -215,12 +215,14 @@ class PrioritizedPlanning {
       if (cost < least) best = reservations.snapshot();
       least = std::min(least, cost);
     };
-    ++result_.attempts;
     if (!tried_steps && steps_succeed(hopeless, stop_)) {
       if (has_few_robots()) replan_for_less(state_, robots, stop_);
       keep_if_better();
     }
-    if (has_few_robots() && make_room(state_, robots, stop_, progress_)) keep_if_better();
+    if (has_few_robots() && make_room(state_, robots, stop_, progress_)) {
+      ++result_.attempts;
+      keep_if_better();
+    }
     result_.cut_off = result_.cut_off || stop_.met();
     if (best) reservations.restore(std::move(*best));
     return best.has_value();

@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 
+#include "core/prioritized/step_lines.h"
 #include "tests/core/support/planning.h"
 #include "tests/support/random_problem.h"
 
@@ -198,6 +199,22 @@ TEST(Lacam, KeepsRandomFleetsOfTwoKindsToTheirGraphs) {
     expect_valid(problem, *plan);
   }
   EXPECT_GT(planned, 50);
+}
+
+TEST(Lacam, TellsAtOnceThatRobotsCannotPassOnALine) {
+  const std::string line(200, '.');
+  // All configurations are too many to be looked at.
+  const StepProblem problem = on_map({line}, {{0, 0, 199}, {0, 1, 198}, {0, 2, 197}, {0, 3, 196}});
+  EXPECT_TRUE(have_to_pass_on_a_line(problem, StopCondition::never()));
+  EXPECT_FALSE(plan_with_seed(problem));
+}
+
+TEST(Lacam, RobotsPassOnALineWithABranch) {
+  const StepProblem turned = on_map({"....", "#.##"}, {{0, 0, 2}, {0, 2, 0}});
+  EXPECT_FALSE(have_to_pass_on_a_line(turned, StopCondition::never()));
+  const StepProblem same_order = on_map({"...."}, {{0, 0, 2}, {0, 1, 3}});
+  EXPECT_FALSE(have_to_pass_on_a_line(same_order, StopCondition::never()));
+  EXPECT_TRUE(plan_with_seed(same_order));
 }
 
 }  // namespace TEST_FILE
