@@ -44,6 +44,7 @@ std::optional<Position> NearestPlaces::of(const LineOfSight& sight, const Positi
   const std::size_t most = std::min(tests_ + kMostTestsOfOne, kMostTests);
   const double farthest = std::max(kFarthest, kFarthestRadii * radius);
   double below = overlap;
+  // Bounded: kMostTestsOfOne, and the stop condition.
   for (double distance = overlap + kSlack; distance <= farthest;
        distance = std::max(kGrowth * distance, distance + kLeastGrowth)) {
     std::optional<Position> nearest;
@@ -71,6 +72,7 @@ std::optional<Position> NearestPlaces::with_few_decimals(const LineOfSight& sigh
                                                          const Position& place, double radius) {
   const Position world = place + origin_;
   const double farthest = (place - from).norm() + kForFewerDecimals;
+  // Bounded: four places for each number of decimals.
   for (int decimals = kFewestDecimals; decimals <= kMostDecimals; ++decimals) {
     const double unit = std::pow(10.0, decimals);
     std::optional<Position> best;
