@@ -19,7 +19,7 @@ constexpr int kDirections = 64;
 constexpr double kFarthest = 2.0;
 constexpr double kFarthestRadii = 4.0;
 /// Halvings of the way between two circles.
-constexpr int kHalvingsOfSide = 24;
+constexpr int kHalvings = 24;
 /// Added to a distance, so that rounding closes no contact, metres.
 constexpr double kSlack = 1e-9;
 /// How much farther a place may be that has fewer decimals, metres.
@@ -44,7 +44,7 @@ std::optional<Position> NearestPlaces::of(const LineOfSight& sight, const Positi
   const std::size_t most = std::min(tests_ + kMostTestsOfOne, kMostTests);
   const double farthest = std::max(kFarthest, kFarthestRadii * radius);
   double below = overlap;
-  // Bounded: kMostTestsOfOne, and fits() asks the stop condition.
+  // Bounded: kMostTestsOfOne, and the stop condition.
   for (double distance = overlap + kSlack; distance <= farthest;
        distance = std::max(kGrowth * distance, distance + kLeastGrowth)) {
     std::optional<Position> nearest;
@@ -54,7 +54,7 @@ std::optional<Position> NearestPlaces::of(const LineOfSight& sight, const Positi
       if (!fits(sight, from + distance * direction(index), radius)) continue;
       double open = distance;
       double closed = below;
-      for (int k = 0; k < kHalvingsOfSide && open - closed > kSlack; ++k) {
+      for (int k = 0; k < kHalvings && open - closed > kSlack; ++k) {
         const double middle = 0.5 * (open + closed);
         (fits(sight, from + middle * direction(index), radius) ? open : closed) = middle;
       }
@@ -72,7 +72,7 @@ std::optional<Position> NearestPlaces::with_few_decimals(const LineOfSight& sigh
                                                          const Position& place, double radius) {
   const Position world = place + origin_;
   const double farthest = (place - from).norm() + kForFewerDecimals;
-  // Bounded: a few decimals, four places each.
+  // Bounded: four places for each number of decimals.
   for (int decimals = kFewestDecimals; decimals <= kMostDecimals; ++decimals) {
     const double unit = std::pow(10.0, decimals);
     std::optional<Position> best;

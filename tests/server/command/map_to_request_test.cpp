@@ -168,7 +168,7 @@ TEST_F(Map2Request, NamesFileLineAndRemedyOfAFaultInTheYaml) {
   refused(with("resolution: 0.5", "mode: raw"), "map.yaml:3", "a second time");
   refused(with("[-2.0, -1.0, 0.0]", "\"\""), "map.yaml:4", "three numbers, [x, y, yaw]");
   refused(with("[-2.0, -1.0, 0.0]", "[-2.0, -1.0]"), "map.yaml:4", "it has 2");
-  refused(with("[-2.0, -1.0, 0.0]", "[-2.0, -1.0, 1.57]"), "map.yaml:4", "maps are not turned");
+  refused(with("[-2.0, -1.0, 0.0]", "[-2.0, -1.0, 1.57]"), "map.yaml:4", "must be a multiple of pi / 2");
   refused(with("negate: 0", "negate: 2"), "map.yaml:5", "0, 1, false or true");
   refused(with("trinary", "trinery"), "map.yaml:2", "mode must be \"trinary\", \"scale\" or \"raw\"");
   refused(with("0.65", "65"), "map.yaml:6", "from 0 to 1");

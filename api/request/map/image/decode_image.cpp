@@ -224,7 +224,10 @@ class Notable {
     ShadeRule humble = rule;
     humble.release = Release::humble;
     if (meanings != nullptr) before_.emplace(humble, header);
-    looks_for_gray_ = looks_for_gray_ && header.largest % 255 == 0;
+    // An alpha channel makes it free with Humble, whatever the thresholds.
+    constexpr std::uint16_t kGray[] = {kUnknownGray};
+    const bool is_free = OccupancyOfPixels(rule, {1, 1, 1, 255}).of(kGray) == 0;
+    looks_for_gray_ = looks_for_gray_ && is_free && header.largest % 255 == 0;
     unknown_gray_ = static_cast<std::uint16_t>(kUnknownGray * (header.largest / 255));
   }
 
