@@ -127,6 +127,7 @@ void renumber(Actions& actions, std::size_t visited) {
 /// The number of these goals that the committed actions of a robot serve, up to the last one that changes its
 /// load.
 std::size_t count_of_passed(const core::Robot& next, const std::vector<core::Goal>& goals) {
+  if (next.committed.empty()) return 0;
   core::Robot passing = next;
   passing.via = goals;
   passing.goal.emplace().anywhere = true;  // the last goal always remains: so all of these may be served

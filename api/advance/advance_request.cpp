@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "api/json/json_writer.h"
-#include "api/request/fleet/parse_actions.h"
 #include "api/request/fleet/parse_plans.h"
 #include "api/request/fleet/parse_robots.h"
 #include "api/request/limits.h"
@@ -219,10 +218,12 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
   const RobotNames names(fleet.robots, "robots of the request");
   const WorldFrame frame = fleet.map ? fleet.map->frame : WorldFrame();
   parse_events(root, names, limits, frame, read);
-  for (core::RobotPlan& plan : parse_plans(root.require("plans"), fleet.robots, frame)) {
+  const JsonReader list = root.require("plans");
+  std::vector<core::RobotPlan> plans = parse_plans(list, fleet.robots, frame);
+  check_profiles(list, plans);
+  for (core::RobotPlan& plan : plans) {
     read.executions[plan.robot].actions = std::move(plan.actions);
     read.executions[plan.robot].planned = true;
-    leave_out_unfit_profiles(read.executions[plan.robot].actions);
   }
   if (!read.request || root.fault_count() > 0 || work.met()) return std::nullopt;
   std::size_t corners = fleet.zones.size();

@@ -10,7 +10,6 @@
 #include "api/execution/execution_requests.h"
 #include "api/json/errors.h"
 #include "api/json/json_writer.h"
-#include "api/request/fleet/parse_actions.h"
 #include "api/request/fleet/parse_plans.h"
 #include "api/request/fleet/parse_robots.h"
 #include "api/request/limits.h"
@@ -111,7 +110,7 @@ std::optional<RetimeRequest> parse_retime_request(const JsonReader& root, const 
       parse_robots(root.require("robots"), root.find("robot_defaults"), WorldFrame{}, limits, ids);
   const JsonReader plans = root.require("plans");
   request.plans = parse_plans(plans, robots, WorldFrame{});
-  for (core::RobotPlan& plan : request.plans) leave_out_unfit_profiles(plan.actions);
+  check_profiles(plans, request.plans);
   request.rules.now = root.require("at").number(kDuration).value_or(0.0);
   if (root.fault_count() > 0 || work.met()) return std::nullopt;
   check_times(plans, request.plans);

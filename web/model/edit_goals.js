@@ -52,7 +52,7 @@ function withAlternatives(request, index, number, change) {
   return withGoals(request, index, (goals) =>
     goals.map((goal, at) => {
       if (at !== number) return goal;
-      const { x, y, theta, any_of: _, ...rest } = objectOf(goal);
+      const { x, y, theta, any_of: _, choice: ___, ...rest } = objectOf(goal); // its number counts poses
       const listed = alternativesOf(goal);
       const poses = change(listed.length > 0 ? listed : [withMembers({ x, y }, { theta })]);
       if (poses.length > 1) return { any_of: poses, ...rest };

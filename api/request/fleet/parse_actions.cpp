@@ -46,12 +46,6 @@ std::string seconds(double t) { return number_text(t) + " s"; }
 
 }  // namespace
 
-void leave_out_unfit_profiles(std::vector<core::Action>& actions) {
-  for (core::Action& action : actions) {
-    if (action.profile && !core::profile_fits(action)) action.profile.reset();
-  }
-}
-
 OpenLoadOnTheWay::OpenLoadOnTheWay(const core::Robot& robot, const std::vector<core::OpenGoal>& open)
     : robot_(robot), open_(open), on_the_way_(settled_at_start()) {}
 

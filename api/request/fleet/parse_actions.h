@@ -20,9 +20,6 @@ namespace fleetplan::api {
 /// its speeds only, until the robot is known.
 core::Action parse_action(const JsonReader& item, const Range& times);
 
-/// Leaves out the profiles that do not fit: what a robot does by an invalid plan is as good as measured.
-void leave_out_unfit_profiles(std::vector<core::Action>& actions);
-
 /// Returns the action in the map frame, with normalised headings.
 core::Action to_map(const core::Action& world, const WorldFrame& frame);
 

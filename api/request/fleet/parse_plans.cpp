@@ -152,6 +152,28 @@ std::vector<core::RobotPlan> parse_plans(const JsonReader& member, std::vector<P
   return plans;
 }
 
+void check_profiles(const JsonReader& list, const std::vector<core::RobotPlan>& plans) {
+  if (list.fault_count() > 0) return;
+  auto plan = plans.begin();
+  // Bounded: the items that were read.
+  for (const JsonReader item : list.items()) {
+    if (plan == plans.end()) return;
+    auto action = plan->actions.begin();
+    for (const JsonReader entry : item.find("actions").items()) {
+      if (action == plan->actions.end()) break;
+      if (action->profile && !core::profile_fits(*action)) {
+        entry.find("profile").fault(
+            fault::kProfile,
+            "With the accelerations that the robot has during this action, the profile does not lead over its "
+            "length, or angle, in its time. Send the plan with the request that it was made for, or leave the "
+            "profile out for measured motion.");
+      }
+      ++action;
+    }
+    ++plan;
+  }
+}
+
 namespace {
 
 constexpr std::array<std::string_view, 3> kDependencyMembers{"gate", "until", "slack"};

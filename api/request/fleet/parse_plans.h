@@ -23,6 +23,10 @@ struct Fleet;
 std::vector<core::RobotPlan> parse_plans(const JsonReader& member, std::vector<ParsedRobot>& robots,
                                          const WorldFrame& frame);
 
+/// Reports profiles of plans that do not lead over their actions in their times. `list`: the member that the
+/// plans come from, in their order.
+void check_profiles(const JsonReader& list, const std::vector<core::RobotPlan>& plans);
+
 /// Reads `dependencies`: those that the service has made for these plans. Robots and actions that do not
 /// exist, and times that contradict the plans, are faults. Whoever obeys dependencies without a fault never
 /// waits for ever, because every `until` is planned before its `gate`.

@@ -222,6 +222,7 @@ class OpenGoal(GoalDetails):
     """A goal that is served at one of several poses."""
 
     any_of: list[Alternative]
+    choice: NotRequired[int]
 
 
 Goal: TypeAlias = PlacedGoal | OpenGoal

@@ -219,6 +219,14 @@ INSTANTIATE_TEST_SUITE_P(
                               "duplicate", "either a pose or any_of"},
                     FaultCase{"NoY", [](Json& r) { goal(r)["any_of"][1].erase("y"); },
                               "/robots/0/goal/any_of/1/y", "missing", "y is missing"},
+                    FaultCase{"NoSuchChoice", [](Json& r) { goal(r)["choice"] = 5; }, "/robots/0/goal/choice",
+                              "out_of_range", "5 poses, numbered from 0"},
+                    FaultCase{"ChoiceOfOnePose",
+                              [](Json& r) {
+                                goal(r) = pose(8.5, 2.5);
+                                goal(r)["choice"] = 0;
+                              },
+                              "/robots/0/goal/choice", "out_of_range", "no any_of"},
                     FaultCase{"NegativeBias", [](Json& r) { goal(r)["any_of"][1]["bias"] = -1; },
                               "/robots/0/goal/any_of/1/bias", "out_of_range", "seconds"},
                     FaultCase{"ServiceOfAPose", [](Json& r) { goal(r)["any_of"][1]["service"] = 1; },
