@@ -5,6 +5,7 @@
 
 #include "api/advance/advance.h"
 #include "core/execution/executed_actions.h"
+#include "core/geometry/tolerance.h"
 
 namespace fleetplan::api {
 
@@ -74,7 +75,8 @@ class Waits {
   /// Seconds that the action takes at least. A wait may begin before its goal can be served.
   double duration(std::size_t index, const Action& part) const {
     const double planned = part.t_end - part.t_start;
-    return part.type == Action::Type::wait ? std::min(planned, purposes_[index].least) : planned;
+    if (part.type != Action::Type::wait) return planned;
+    return std::min(planned, std::max(purposes_[index].least, core::kShortestWait));
   }
 
  private:

@@ -19,7 +19,7 @@ constexpr int kDirections = 64;
 constexpr double kFarthest = 2.0;
 constexpr double kFarthestRadii = 4.0;
 /// Halvings of the way between two circles.
-constexpr int kHalvings = 24;
+constexpr int kHalvingsOfSide = 24;
 /// Added to a distance, so that rounding closes no contact, metres.
 constexpr double kSlack = 1e-9;
 /// How much farther a place may be that has fewer decimals, metres.
@@ -54,7 +54,7 @@ std::optional<Position> NearestPlaces::of(const LineOfSight& sight, const Positi
       if (!fits(sight, from + distance * direction(index), radius)) continue;
       double open = distance;
       double closed = below;
-      for (int k = 0; k < kHalvings && open - closed > kSlack; ++k) {
+      for (int k = 0; k < kHalvingsOfSide && open - closed > kSlack; ++k) {
         const double middle = 0.5 * (open + closed);
         (fits(sight, from + middle * direction(index), radius) ? open : closed) = middle;
       }

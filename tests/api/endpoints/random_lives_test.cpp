@@ -25,7 +25,6 @@
 #include "core/planner.h"
 #include "core/verify/verify.h"
 #include "tests/api/support/expect_actions.h"
-#include "tests/api/support/fleet_json.h"
 #include "tests/api/support/life_requests.h"
 #include "tests/api/support/lives.h"
 #include "tests/support/summary.h"

@@ -4,13 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <algorithm>
 #include <cstddef>
 #include <set>
 #include <string>
 
 #include "core/geometry/position.h"
-#include "core/geometry/tolerance.h"
 #include "tests/api/support/lives.h"
 #include "tests/api/support/requests.h"
 
@@ -18,6 +17,7 @@ namespace fleetplan::api {
 
 /// From an action on, there is no translation, rotation or wait of hardly anything.
 inline void expect_no_small_actions(const Json& actions, std::size_t first = 0) {
+  constexpr double kLeast = 1e-9;
   constexpr double kRounding = 1e-13;
   for (std::size_t k = first; k < actions.size(); ++k) {
     const Json& action = actions[k];
@@ -26,7 +26,7 @@ inline void expect_no_small_actions(const Json& actions, std::size_t first = 0) 
     double amount = action.at("t_end").get<double>() - action.at("t_start").get<double>();
     if (action.at("type") == "translate") amount = (to.position - from.position).norm();
     if (action.at("type") == "rotate") amount = core::angle_between(from.theta, to.theta);
-    EXPECT_GE(amount, core::kLeastAction - kRounding) << "action " << k << " of " << actions;
+    EXPECT_GE(amount, kLeast - kRounding) << "action " << k << " of " << actions;
   }
 }
 
