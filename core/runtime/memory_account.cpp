@@ -49,10 +49,11 @@ constinit std::atomic<std::int64_t> lacks{0};
 std::int64_t memory_lacks() { return lacks.load(std::memory_order_relaxed); }
 
 void note_memory_lack(std::size_t bytes) {
-  const MemoryAccount* account = memory_tally.account;
-  const auto room = account == nullptr ? 0 : account->limit() - account->used() - memory_tally.pending;
-  const bool is_refused = account != nullptr && room < static_cast<std::int64_t>(bytes);
-  if (!is_refused) lacks.fetch_add(1, std::memory_order_relaxed);
+  MemoryAccount* account = memory_tally.account;
+  const std::int64_t wanted = memory_tally.pending + static_cast<std::int64_t>(bytes);
+  if (account != nullptr && !account->reserve(wanted)) return;  // it has counted a shortage
+  if (account != nullptr) account->count(-wanted);
+  lacks.fetch_add(1, std::memory_order_relaxed);
 }
 
 void MemoryTally::report() {
