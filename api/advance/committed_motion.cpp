@@ -61,7 +61,12 @@ class Clearing {
  public:
   Clearing(std::vector<core::Robot>& robots, const std::vector<double>& margins, Motions& motions,
            core::Work& work)
-      : robots_(robots), margins_(margins), motions_(motions), work_(work), waits_(robots.size(), true) {
+      : robots_(robots),
+        margins_(margins),
+        motions_(motions),
+        work_(work),
+        driven_on_(robots.size(), 0),
+        waits_(robots.size(), true) {
     for (const core::Robot& robot : robots) {
       reach_.push_back(core::largest_radius(robot) + margins[pieces_.size()] + driven(robot.committed));
       waiting_.push_back(pieces_.size());
@@ -210,12 +215,13 @@ class Clearing {
     return false;
   }
 
-  /// The first actions of a robot's course, more than `count` and than what it is committed to, at whose end
-  /// it has driven and stands; `count` if there are none.
+  /// The first actions of a robot's course, more than `count`, than what it is committed to, and than what it
+  /// has driven on to before, at whose end it has driven and stands; `count` if there are none. So each robot
+  /// drives on no more often than its course has actions, even if its commitment is cut again.
   std::size_t next_stop(std::size_t index, std::size_t count) const {
     if (index >= motions_.courses.size()) return count;
     const Actions& course = motions_.courses[index];
-    for (std::size_t k = count; k < course.size(); ++k) {
+    for (std::size_t k = std::max(count, driven_on_[index]); k < course.size(); ++k) {
       const bool stands = course[k].type == Action::Type::translate &&
                           (k + 1 == course.size() || !goes_on(course[k], course[k + 1]));
       if (stands && course[k].t_end > robots_[index].committed_until() + kSameEnd) return k + 1;
@@ -264,6 +270,7 @@ class Clearing {
   /// Commits a robot to the first actions of its course. It does not stop before.
   void commit_to(std::size_t index, std::size_t count) {
     core::Robot& robot = robots_[index];
+    driven_on_[index] = count;
     robot.committed = first_of_course(index, count);
     if (robot.previous) robot.previous = motions_.courses[index];
     motions_.braking.resize(robots_.size());
@@ -433,8 +440,9 @@ class Clearing {
   core::Work& work_;
   std::vector<std::vector<Piece>> pieces_;     // by robot
   std::vector<std::vector<Piece>> obstacles_;  // by obstacle
-  std::vector<double> reach_;  // from the start, with disk and margin; of the commitment as it was
-  std::vector<bool> waits_;    // for its comparison with all others
+  std::vector<double> reach_;           // from the start, with disk and margin; of the commitment as it was
+  std::vector<std::size_t> driven_on_;  // by robot: the actions of its course that it was committed to last
+  std::vector<bool> waits_;             // for its comparison with all others
   std::vector<std::size_t> waiting_;
 };
 
