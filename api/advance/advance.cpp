@@ -329,7 +329,7 @@ Course standing_course(const core::Robot& robot, const Execution& execution, con
   Actions& actions = course.rest.actions;
   const double end = actions.empty() ? 0.0 : actions.back().t_end;
   course.committed_until = std::max(end, *moment.stand_until);
-  if (course.committed_until > end) {
+  if (course.committed_until - end >= core::kLeastAction) {
     const core::Pose pose = actions.empty() ? course.rest.start : actions.back().to;
     actions.push_back({Action::Type::wait, end, course.committed_until, pose, pose});
   }

@@ -242,7 +242,8 @@ Actions resumed_after(const Actions& stopped, const Actions& actions) {
       all.insert(all.end(), chain.begin(), chain.end());
     }
     next = end;
-  } else if (!last.profile && last.t_end < planned.t_end) {
+  } else if (!last.profile && last.t_end < planned.t_end &&
+             left_of(planned, last.t_end) >= core::kLeastAction) {
     Action later = planned;
     later.t_start = last.t_end;
     later.from = last.to;
