@@ -195,45 +195,68 @@ TEST(Obstacles, EndCommitmentsWhereTheRobotCanStopAtLast) {
         Json request = hall(has_inertia);
         const Json answer = plan_of(request);
         Json pallet{{"id", "pallet"}, {"radius", 0.3}, {"after", "stays"}};
-        pallet["motion"] = Json::array();
         pallet["motion"].push_back({{"t", at}, {"x", x + ahead}, {"y", 1.5}});
-        Json person{{"id", "person"}, {"radius", 0.3}};
-        person["motion"] = Json::array();
-        person["motion"].push_back({{"t", begin}, {"x", x}, {"y", 0.0}});
-        person["motion"].push_back({{"t", end}, {"x", x}, {"y", 3.0}});
-        request["obstacles"] = Json::array();
-        request["obstacles"].push_back(person);
-        Json more = Json::object();
-        if (dice.chance(0.5)) more["commit"] = dice.between(0.0, 6.0);
-        const Json committed =
-            advanced(request, answer, at, more)["robots"][0].value("committed", Json::array());
-        if (committed.empty()) continue;
-        ++cut;
-        const double stands = committed.back()["t_end"];
-        const double first_stop = has_inertia ? 2.0 * now.speed : 0.0;  // seconds
-        if (stands < first_stop + 1e-6) continue;
-        for (double t = 0.0; t < stands; t += 1e-3) {
-          const double there = (t + at - begin) / (end - begin) * 3.0;
-          if (there < 0.0 || there > 3.0) continue;
-          double mine = 0.0;
-          for (const Json& action : committed) {
-            const core::Action one{core::Action::Type::translate, action["t_start"], action["t_end"],
-                                   pose_of(action["from"]), pose_of(action["to"])};
-            core::Action timed = one;
-            if (action.contains("profile")) {
-              const Json& profile = action["profile"];
-              timed.profile =
-                  core::SpeedProfile{profile["start"], profile["cruise"], profile["end"], {2.0, 2.0}};
-            }
-            if (t < one.t_start || t > one.t_end) continue;
-            mine = one.from.position.x() +
-                   core::share_at(timed, t) * (one.to.position.x() - one.from.position.x());
-          }
-          EXPECT_GE(std::hypot(mine - x, there - 1.5), 0.7 - 1e-5) << t << committed;
-        }
+        request["obstacles"].push_back(pallet);
+        const Json next = advanced(request, answer, at);
+        const Json& robot = next["robots"][0];
+        const double needs = has_inertia ? speed * speed : 0.0;  // metres to stop
+        const Json committed = robot.value("committed", Json::array());
+        const double end = committed.empty() ? x : committed.back()["to"]["x"].get<double>();
+        EXPECT_NEAR(end - x, std::max(needs, ahead - 0.7), 1e-6);
+        const Json plan = plan_of(next);
+        EXPECT_EQ(plan.contains("unavoidable"), needs > ahead - 0.7 + 1e-6) << plan;
       }
-      EXPECT_GT(cut, 50);
     }
+  }
+}
 
-  }  // namespace TEST_FILE
+/// Somebody crosses the way. Where the robot drives until it stands, it does not touch them.
+TEST(Obstacles, ThatCrossTheWayAreNotTouchedBeforeARobotStands) {
+  Dice dice(1);
+  int cut = 0;
+  for (int run = 0; run < 200; ++run) {
+    SCOPED_TRACE(run);
+    const bool has_inertia = dice.chance(0.7);
+    Json request = hall(has_inertia);
+    const Json answer = plan_of(request);
+    const double at = dice.between(0.0, 8.0);
+    const Under now = under_way_in_hall(has_inertia, at);
+    const double x = now.x + 0.71 + dice.between(0.0, 5.0);
+    const double begin = at + dice.between(0.0, 3.0);
+    const double end = begin + dice.between(1.0, 8.0);
+    Json person{{"id", "person"}, {"radius", 0.3}};
+    person["motion"].push_back({{"t", begin}, {"x", x}, {"y", 0.0}});
+    person["motion"].push_back({{"t", end}, {"x", x}, {"y", 3.0}});
+    request["obstacles"].push_back(person);
+    Json more = Json::object();
+    if (dice.chance(0.5)) more["commit"] = dice.between(0.0, 6.0);
+    const Json committed = advanced(request, answer, at, more)["robots"][0].value("committed", Json::array());
+    if (committed.empty()) continue;
+    ++cut;
+    const double stands = committed.back()["t_end"];
+    const double first_stop = has_inertia ? 2.0 * now.speed : 0.0;  // seconds
+    if (stands < first_stop + 1e-6) continue;
+    for (double t = 0.0; t < stands; t += 1e-3) {
+      const double there = (t + at - begin) / (end - begin) * 3.0;
+      if (there < 0.0 || there > 3.0) continue;
+      double mine = 0.0;
+      for (const Json& action : committed) {
+        const core::Action one{core::Action::Type::translate, action["t_start"], action["t_end"],
+                               pose_of(action["from"]), pose_of(action["to"])};
+        core::Action timed = one;
+        if (action.contains("profile")) {
+          const Json& profile = action["profile"];
+          timed.profile = core::SpeedProfile{profile["start"], profile["cruise"], profile["end"], {2.0, 2.0}};
+        }
+        if (t < one.t_start || t > one.t_end) continue;
+        mine =
+            one.from.position.x() + core::share_at(timed, t) * (one.to.position.x() - one.from.position.x());
+      }
+      EXPECT_GE(std::hypot(mine - x, there - 1.5), 0.7 - 1e-5) << t << committed;
+    }
+  }
+  EXPECT_GT(cut, 50);
+}
+
+}  // namespace TEST_FILE
 }  // namespace fleetplan::api
