@@ -230,7 +230,7 @@ bool must_not_count(const Json& message, const Json& sent) {
 }
 
 TEST(RandomStates, CostTheirVehicleOnly) {
-  constexpr int kStates = 3000;
+  constexpr int kStates = 500;
   const unsigned seed = 5050;
   std::mt19937 random(seed);
   const Reporting hall;
