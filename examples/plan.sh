@@ -15,11 +15,11 @@ seconds=$(jq '(.options.time_budget_ms // 5000) / 1000 + 5' "$request") || exit 
 status=$(curl -sS -o "$answer" -w '%{http_code}' --max-time "$seconds" -H 'Content-Type: application/json' \
   --data-binary @"$request" "$url/v1/plan") || exit 2
 if [ "$status" != 200 ]; then
-  jq -r '.detail, (.errors[]? | "\(.pointer): \(.detail)")' "$answer" >&2 2>/dev/null ||
+  jq -ers '.[0] | .detail // error, (.errors[]? | "\(.pointer): \(.detail)")' "$answer" >&2 2>/dev/null ||
     echo "$url answers $status; is this a proxy?" >&2
   exit 2
 fi
-if ! jq -e '.plans and .unplanned and .status' "$answer" >/dev/null 2>&1; then
+if ! jq -es '.[0] | .plans and .unplanned and .status' "$answer" >/dev/null 2>&1; then
   echo "the answer of $url is no plan; is this a proxy?" >&2
   exit 2
 fi

@@ -5,6 +5,8 @@ tests the replay that judges drives.
 Usage: motion_test.py FLEETPLAN_BINARY [unittest arguments]
 """
 
+import contextlib
+import http.server
 import math
 import os
 import pathlib
@@ -13,7 +15,9 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import threading
 import unittest
+import urllib.request
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
@@ -55,6 +59,58 @@ class Loops(unittest.TestCase):
             self.expect_a_hundred_rounds(subprocess.run(
                 ["bash", "-euo", "pipefail", "-c", script.replace(place, self.service.url.removeprefix("http://"))],
                 cwd=folder, env={**os.environ, "CURL_HOME": folder}, capture_output=True, text=True, check=False))
+
+    @unittest.skipUnless(shutil.which("curl") and shutil.which("jq"), "needs curl and jq")
+    def test_the_loop_in_the_shell_goes_on_after_answers_that_are_none(self):
+        broken = [(503, b'{"detail": "draining"}'), (200, b"<html>"), (200, b"{}"), (302, b"{}"), (200, b""), None]
+        place = SERVICE.removeprefix("http://")
+        for path in ("/v1/plan", "/v1/advance"):
+            with self.subTest(path), spoiling(self.service.url, path, 3, broken) as url, tempfile.TemporaryDirectory() as folder:
+                (pathlib.Path(folder) / "tests").symlink_to(PROJECT / "tests")
+                script = block("sh").replace(place, url.removeprefix("http://")).replace("seq 0 99", "seq 0 15")
+                done = subprocess.run(["bash", "-uo", "pipefail", "-c", script], cwd=folder, capture_output=True, text=True,
+                                      check=False, timeout=300)
+                ages = [int(age) for age in re.findall(r"solved, \d+ arrived, planned (\d+) s ago", done.stdout)]
+                self.assertEqual(len(ages), 16, done.stdout + done.stderr[-2000:])
+                self.assertGreater(max(ages), 4)
+                self.assertEqual(ages[-1], 1)
+
+
+@contextlib.contextmanager
+def spoiling(service, path, first, answers):
+    """The URL of a proxy, which answers some requests of this path, from a number on, in this way: a status and a body,
+    or None to break off."""
+    left, count = list(answers), [0]
+
+    class Handler(http.server.BaseHTTPRequestHandler):
+        def do_POST(self):
+            body = self.rfile.read(int(self.headers["Content-Length"]))
+            count[0] += self.path == path
+            answer = left.pop(0) if self.path == path and count[0] >= first and left else ()
+            if answer is None:
+                self.wfile.write(b"HTTP/1.0 200 OK\r\nContent-Length: 600\r\n\r\n{")
+                return
+            if answer == ():
+                request = urllib.request.Request(service + self.path, body, {"Content-Type": "application/json"})
+                with urllib.request.urlopen(request) as response:
+                    answer = response.status, response.read()
+            self.send_response(answer[0])
+            self.send_header("Content-Length", str(len(answer[1])))
+            self.end_headers()
+            self.wfile.write(answer[1])
+
+        def log_message(self, *_):
+            pass
+
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler)
+    thread = threading.Thread(target=server.serve_forever, args=(0.01,))
+    thread.start()
+    try:
+        yield f"http://127.0.0.1:{server.server_address[1]}"
+    finally:
+        server.shutdown()
+        thread.join()
+        server.server_close()
 
 
 class Drives(unittest.TestCase):

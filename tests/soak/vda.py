@@ -44,6 +44,8 @@ LONGEST_STAND_S = 240.0  # without a reason
 LAST_S = 900.0  # in which all is served in the end
 ANSWERS_LOST = 0.002  # the share
 PUSHED_M = 1.5
+TURN_MIN = 10.0  # with the same fleet
+MOST_FAILURES = 20
 MAKE = "acme"
 
 
@@ -271,8 +273,7 @@ class Soak:
             if vehicle.legs or vehicle.busy:
                 self.fine_since[vehicle.name] = max(self.fine_since[vehicle.name], self.now)
             stands = self.now - self.fine_since[vehicle.name]
-            if stands > self.longest_stand:
-                self.longest_stand = stands
+            self.longest_stand = max(self.longest_stand, stands)
             if stands > LONGEST_STAND_S:
                 self.fail(f"{vehicle.name} has stood for {stands:.0f} s without a reason")
                 self.fine_since[vehicle.name] = self.now
@@ -359,7 +360,7 @@ def main():
     parser.add_argument("--url", help="a server that is already running")
     parser.add_argument("--minutes", type=float, default=60.0)
     parser.add_argument("--robots", type=int, default=10)
-    parser.add_argument("--version", choices=("2.1.0", "3.0.0"), help="by default both, in turns of 20 simulated minutes")
+    parser.add_argument("--version", choices=("2.1.0", "3.0.0"), help="by default both, one after the other")
     parser.add_argument("--seed", type=int, default=int(time.time()))
     arguments = parser.parse_args()
     if not arguments.binary and not arguments.url:
@@ -367,22 +368,23 @@ def main():
     logging.disable()  # what is told is counted
     server = Server(arguments.binary, arguments.url)
     print(f"seed {arguments.seed}, {server.url}", flush=True)
-    end, failures = time.monotonic() + 60.0 * arguments.minutes, []
-    versions = itertools.cycle([arguments.version] if arguments.version else ["2.1.0", "3.0.0"])
-    while time.monotonic() < end and not failures:
-        soak = Soak(Client(server.url), arguments.robots, version := next(versions), arguments.seed)
-        turn = 60.0 * arguments.minutes / 2.0 if arguments.minutes < 5.0 else 1200.0
-        stop = min(end, time.monotonic() + turn) if arguments.minutes < 5.0 else end
+    failures = []
+    versions = [arguments.version] if arguments.version else ["2.1.0", "3.0.0"]
+    turns = max(1, round(arguments.minutes / TURN_MIN / len(versions))) * versions
+    for number, version in enumerate(turns):
+        client = Client(server.url)
+        soak = Soak(client, arguments.robots, version, arguments.seed + number)
+        end = time.monotonic() + 60.0 * arguments.minutes / len(turns)
         try:
-            while time.monotonic() < stop and (soak.now < 1200.0 or arguments.minutes < 5.0):
+            while time.monotonic() < end and len(soak.failures) < MOST_FAILURES:
                 soak.step(True)
             soak.finish()
         except Exception:  # to tell when and how
             soak.fail(f"the loop has ended by\n{traceback.format_exc()}")
-        print(f"VDA 5050 {version}, ", end="")
+        print(f"VDA 5050 {version}, seed {arguments.seed + number}, ", end="")
         soak.print_report()
-        failures += soak.failures[:20]
-        arguments.seed += 1
+        failures += soak.failures[:MOST_FAILURES]
+        client.close()
     if not server.alive():
         failures.append("the server ended")
     server.end()

@@ -8,12 +8,14 @@
 """
 
 from fleetplan.client import Client
-from fleetplan.errors import (ConnectionFailed, Fault, FleetplanError, PlanDropped, ProblemError, RequestRefused,
-                              ServiceUnavailable)
+from fleetplan.errors import (ConnectionFailed, Fault, FleetplanError, InvalidAnswer, InvalidValue, MessageRejected,
+                              PlanDropped, ProblemError, RequestRefused, RoundFailed, ServiceUnavailable,
+                              VehicleUnavailable)
 from fleetplan.executor import Executor, Instruction, Report
 from fleetplan.fleet_loop import FleetLoop
 
 __all__ = [
-    "Client", "ConnectionFailed", "Executor", "Fault", "FleetLoop", "FleetplanError", "Instruction", "PlanDropped",
-    "ProblemError", "Report", "RequestRefused", "ServiceUnavailable",
+    "Client", "ConnectionFailed", "Executor", "Fault", "FleetLoop", "FleetplanError", "Instruction", "InvalidAnswer",
+    "InvalidValue", "MessageRejected", "PlanDropped", "ProblemError", "Report", "RequestRefused", "RoundFailed",
+    "ServiceUnavailable", "VehicleUnavailable",
 ]
