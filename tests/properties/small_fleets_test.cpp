@@ -4,11 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
-#include <queue>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -25,8 +21,6 @@ using support::robot_at;
 constexpr int kWidth = 5;
 constexpr int kHeight = 5;
 constexpr int kCells = kWidth * kHeight;
-/// Configurations of a maze that are looked at for a solution.
-constexpr std::size_t kMostConfigurations = 40'000;
 
 using Cells = std::vector<int>;  // numbers of cells, row by row
 
@@ -56,28 +50,17 @@ std::vector<bool> random_maze(support::Dice& dice, bool cycles) {
   return is_free;
 }
 
-/// Whether steps of one robot after the other lead from the starts to the goals; none if that takes too long
-/// to find out. Breadth-first search over configurations.
-std::optional<bool> is_solvable(const std::vector<bool>& is_free, const Cells& starts, const Cells& goals) {
-  std::set<Cells> seen{starts};
-  std::queue<Cells> open({starts});
-  while (!open.empty()) {
-    Cells now = open.front();
-    open.pop();
-    if (now == goals) return true;
-    for (int& robot : now) {
-      const int from = robot;
-      for (const int to : neighbours(from)) {
-        const bool is_taken = std::find(now.begin(), now.end(), to) != now.end();
-        if (is_taken || !is_free[static_cast<std::size_t>(to)]) continue;
-        robot = to;
-        if (seen.insert(now).second) open.push(now);
-        robot = from;
-      }
-    }
-    if (seen.size() > kMostConfigurations) return std::nullopt;
+/// Where robots are after many random steps, one robot at a time: steps lead there, and back.
+Cells after_random_steps(support::Dice& dice, const std::vector<bool>& is_free, Cells robots) {
+  constexpr int kSteps = 3000;
+  for (int k = 0; k < kSteps; ++k) {
+    int& robot = robots[static_cast<std::size_t>(dice.below(static_cast<int>(robots.size())))];
+    const std::vector<int> around = neighbours(robot);
+    const int to = around[static_cast<std::size_t>(dice.below(static_cast<int>(around.size())))];
+    const bool is_taken = std::find(robots.begin(), robots.end(), to) != robots.end();
+    if (!is_taken && is_free[static_cast<std::size_t>(to)]) robot = to;
   }
-  return false;
+  return robots;
 }
 
 struct Maze {
@@ -95,16 +78,13 @@ Maze solvable_maze(support::Dice& dice, std::size_t robots, bool cycles) {
       if (is_free[static_cast<std::size_t>(cell)]) cells.push_back(cell);
     }
     if (cells.size() < robots + 2) continue;
-    const auto choose = [&] {
-      Cells all = cells;
-      for (std::size_t k = 0; k < robots; ++k) {
-        const int left = static_cast<int>(all.size() - k);
-        std::swap(all[k], all[k + static_cast<std::size_t>(dice.below(left))]);
-      }
-      return Cells(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(robots));
-    };
-    Maze maze{{}, choose(), choose()};
-    if (maze.starts == maze.goals || is_solvable(is_free, maze.starts, maze.goals) != true) continue;
+    Cells starts = cells;
+    for (std::size_t k = 0; k < robots; ++k) {
+      const int left = static_cast<int>(starts.size() - k);
+      std::swap(starts[k], starts[k + static_cast<std::size_t>(dice.below(left))]);
+    }
+    starts.resize(robots);
+    Maze maze{{}, starts, after_random_steps(dice, is_free, starts)};
     for (int row = kHeight - 1; row >= 0; --row) {
       std::string line;
       for (int column = 0; column < kWidth; ++column) {
