@@ -91,7 +91,7 @@ TEST(Commands, ListFaultsAsLines) {
   const Outcome outcome = run({"plan", file.path()});
   EXPECT_EQ(outcome.code, kBadInput);
   EXPECT_EQ(outcome.out, "");
-  EXPECT_THAT(outcome.err, AllOf(StartsWith(file.path() + ": /robots/0/start: "), HasSubstr("Move it")));
+  EXPECT_THAT(outcome.err, AllOf(StartsWith(file.path() + ": /robots/0/start: "), HasSubstr("move it")));
   EXPECT_THAT(run({"plan"}, "{").err, StartsWith("stdin: Not JSON"));
 }
 

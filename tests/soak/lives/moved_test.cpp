@@ -55,6 +55,19 @@ bool are_near(const Json& a, const Json& b) {
   return true;
 }
 
+/// What an answer comes to: its verdicts, costs and objectives. Ties are decided by rounding, so that the
+/// rest may differ.
+Json outcome(const Json& answer) {
+  Json found = Json::object();
+  for (const char* member : {"status", "valid", "verified", "flowtime", "makespan"}) {
+    if (answer.contains(member)) found[member] = answer.at(member);
+  }
+  for (const Json& plan : answer.value("plans", Json::array())) {
+    if (plan.contains("cost")) found["costs"].push_back(plan.at("cost"));
+  }
+  return found;
+}
+
 using Endpoint = std::function<Reply(const Json&)>;
 
 Reply planned(const Json& request) { return planned_in(5'000, request); }
@@ -72,7 +85,10 @@ Json expect_moved(const char* name, const Endpoint& endpoint, const Json& body, 
   if (loses_nothing(body, by)) {
     EXPECT_EQ(found, expected) << name << " by " << by.x << ' ' << by.y << '\n' << body;
   } else {
-    EXPECT_TRUE(are_near(found, expected)) << name << '\n' << body << '\n' << found << '\n' << expected;
+    EXPECT_TRUE(are_near(outcome(found), outcome(expected))) << name << '\n'
+                                                             << body << '\n'
+                                                             << found << '\n'
+                                                             << expected;
   }
   return answer;
 }
