@@ -29,7 +29,7 @@ struct OpenGoal {
   std::vector<Alternative> poses;  // at least one
   std::size_t chosen = 0;          // index in `poses`
   bool is_settled = false;         // what the robot has done or is committed to decides
-  bool is_told = false;            // actions that serve the goal do so at the chosen pose, and at no other one
+  bool is_told = false;  // actions that serve the goal do so at the chosen pose, and at no other one
 
   const Alternative& choice() const { return poses[chosen]; }
 };
@@ -41,9 +41,9 @@ void choose(Robot& robot, OpenGoal& open, std::size_t pose);
 bool stays_at(const Robot& robot, std::size_t goal);
 
 /// Settles the open goals of a robot, ascending, that `actions`, which are contiguous from t = 0 in its
-/// start, serve: each where it is served first, if nobody has told its pose. So is the goal whose service is under way at their end. The
-/// one at which the robot stays is settled only with `also_last`, where they end. Goals that are settled stay
-/// as they are. Ends early if `stop` is met.
+/// start, serve: each where it is served first, if nobody has told its pose. So is the goal whose service is
+/// under way at their end. The one at which the robot stays is settled only with `also_last`, where they end.
+/// Goals that are settled stay as they are. Ends early if `stop` is met.
 void settle_by_actions(Robot& robot, std::vector<OpenGoal>& open, std::span<const Action> actions,
                        bool also_last, const StopCondition& stop);
 

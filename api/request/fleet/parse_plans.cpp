@@ -162,11 +162,12 @@ void check_profiles(const JsonReader& list, const std::vector<core::RobotPlan>& 
     for (const JsonReader entry : item.find("actions").items()) {
       if (action == plan->actions.end()) break;
       if (action->profile && !core::profile_fits(*action)) {
-        entry.find("profile").fault(
-            fault::kProfile,
-            "With the accelerations that the robot has during this action, the profile does not lead over its "
-            "length, or angle, in its time. Send the plan with the request that it was made for, or leave the "
-            "profile out for measured motion.");
+        entry.find("profile").fault(fault::kProfile,
+                                    "With the accelerations that the robot has during this action, the "
+                                    "profile does not lead over its "
+                                    "length, or angle, in its time. Send the plan with the request that it "
+                                    "was made for, or leave the "
+                                    "profile out for measured motion.");
       }
       ++action;
     }
