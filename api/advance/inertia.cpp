@@ -183,7 +183,7 @@ Actions braked(const Actions& actions, double t) {
     driven.push_back(under_way);
     return driven;
   }
-  const Actions before = driven;
+  Actions before = driven;
   // One that is hardly under way brakes later, so that it drives for more than nothing.
   constexpr double kLater = 1e-6;  // seconds
   for (double later = 0.0; t + later < under_way.t_end; later = std::max(kLater, 2.0 * later)) {

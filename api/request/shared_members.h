@@ -49,7 +49,7 @@ class GivenPositions {
 };
 
 inline core::Position WorldFrame::to_map(const core::Position& world) const {
-  const core::Position map = world - origin;
+  core::Position map = world - origin;
   if (given != nullptr && map + origin != world) given->keep(map, world);
   return map;
 }
