@@ -59,8 +59,8 @@ OrderTracker::OrderTracker(const VdaRequest& request, std::size_t robot, const V
       work_(work),
       progress_(request.progress[robot]),
       route_(request.routes[robot]),
-      actions_(request.actions[robot]) {
-  end_ = find_end();
+      actions_(request.actions[robot]),
+      end_(find_end()) {
   if (progress_.order_id && state_ != nullptr && state_->order_id == *progress_.order_id &&
       !state_->failed_actions.empty()) {
     find_failed_actions();

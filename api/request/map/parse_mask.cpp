@@ -45,7 +45,7 @@ bool is_limit(double limit) { return limit > 0.0 && limit <= 100.0; }
 
 /// Where the raster of a mask lies, in the map frame.
 struct MaskPlace {
-  double resolution;
+  double resolution = 1.0;
   RasterPose pose;
 };
 
@@ -178,7 +178,7 @@ void note_speeds(const JsonReader& mask, const Raster& raster, const SpeedRule& 
                  MaskNotes& notes) {
   std::array<bool, kFullOccupancy + 1> there{};
   for (const std::int8_t percent : raster.occupancy) {
-    if (percent > 0) there[static_cast<std::size_t>(percent)] = true;
+    if (percent > 0) there[static_cast<std::uint8_t>(percent)] = true;
   }
   const bool is_given = mask.find("base") || mask.find("multiplier");
   bool changed = false;
