@@ -188,12 +188,16 @@ test("a ROS map's image may be a PNG, whose alpha counts as in map_server", asyn
     await page.uncheck("#ros-trim");
     await page.click("dialog .primary");
     await page.waitForFunction(() => window.fleetplan.request.map.rows[0] === "#.#");
-    // Opaque: (3 × 205 + 255) / 4 is 217.5, which is free.
-    const pixels = [0, 254, 205].flatMap((gray) => [gray, gray, gray, 255]);
+    // 205 is unknown however opaque it is, and what is not opaque is unknown however light it is.
+    const pixels = [
+      [254, 255],
+      [205, 255],
+      [254, 254],
+    ].flatMap(([gray, alpha]) => [gray, gray, gray, alpha]);
     await drop(page, { "lab.yaml": yaml, "lab.png": png(6, [pixels]) });
     await page.waitForSelector("dialog[open]");
     await page.click("dialog .primary");
-    await page.waitForFunction(() => window.fleetplan.request.map.rows[0] === "#..");
+    await page.waitForFunction(() => window.fleetplan.request.map.rows[0] === ".##");
   });
 });
 
@@ -201,7 +205,7 @@ test("a rotated ROS map is imported unrotated, with a warning", async () => {
   await onPage(async (page) => {
     await drop(page, { "lab.yaml": YAML.replace("0.0]", "0.5]"), "lab.pgm": pgm(GRAYS) });
     await page.waitForSelector("dialog[open]");
-    assert.match(await page.innerText("dialog .warnings"), /rotates the map by 0.5 rad.*ignored/);
+    assert.match(await page.innerText("dialog .warnings"), /turns the map by 0.5 rad.*ignored/);
   });
 });
 
