@@ -210,7 +210,7 @@ std::vector<Fault> faults_of(ErrorCode code) {
        "linear_speed must be from 0.001 to 1000 metres per second, not 0."},
       {"/robots/1/start", fault::kStartInObstacle,
        "The start of robot \"amr-2\" does not fit: its disk overlaps a blocked cell or the edge of the map "
-       "by 0.2 m (radius 0.2 m). Move it or make the robot smaller."}};
+       "by 0.2 m (radius 0.2 m). Move it, or correct the map or the radius."}};
 }
 
 Json reference(std::string_view section, std::string_view component) {
