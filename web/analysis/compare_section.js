@@ -139,8 +139,9 @@ export class CompareSection {
     const { ghosts, other } = this.#page;
     const isBeside = this.#view.input.value === "beside";
     const { plans = null, answer = null, label } = this.#other ?? {};
-    ghosts.show(isBeside ? null : plans);
-    other.show(isBeside && plans !== null ? (answer ?? { plans, unplanned: [] }) : null, [
+    const shown = plans && (answer ?? { plans, unplanned: [] });
+    ghosts.show(isBeside ? null : shown);
+    other.show(isBeside ? shown : null, [
       `this plan, flowtime ${seconds(this.#session.answer?.flowtime ?? 0)}`,
       label,
     ]);

@@ -34,7 +34,7 @@ export class Ghosts {
     const all = this.#session.scene.robots.length <= MOST_PATHS;
     for (const robot of this.#session.scene.robots) {
       const track = this.#tracks.get(robot.id);
-      if (track?.status !== "planned" && track?.status !== "parked") continue;
+      if (track === undefined || track.cost === null) continue; // it has no plan there
       if (all || marked.has(robot.id)) drawPath(context, track.path.map(view.screen), view.theme.muted, PATH);
       this.#paintRobot(context, view, robot, track);
     }
