@@ -196,6 +196,7 @@ test("a ROS map's image may be a PNG, whose alpha counts as in map_server", asyn
     ].flatMap(([gray, alpha]) => [gray, gray, gray, alpha]);
     await drop(page, { "lab.yaml": yaml, "lab.png": png(6, [pixels]) });
     await page.waitForSelector("dialog[open]");
+    await page.uncheck("#ros-trim");
     await page.click("dialog .primary");
     await page.waitForFunction(() => window.fleetplan.request.map.rows[0] === ".##");
   });
