@@ -115,12 +115,12 @@ class OwnMotion {
 
     double share_at(double t) const {
       const double whole = t_end - t_start;
-      const double tau = std::clamp(t - t_start, 0.0, whole);
       if (whole <= 0.0) return 1.0;
+      const double tau = std::clamp(t - t_start, 0.0, whole);
       if (!has_profile) return tau / whole;
       const auto covered = [&](double until) {
         const double up = std::min(until, rise);
-        const double level = std::clamp(until - rise, 0.0, whole - rise - fall);
+        const double level = std::clamp(until - rise, 0.0, std::max(0.0, whole - rise - fall));
         const double down = std::max(0.0, until - (whole - fall));
         const double raise = rise > 0.0 ? (cruise - start) / rise : 0.0;
         const double drop = fall > 0.0 ? (cruise - end) / fall : 0.0;
