@@ -72,8 +72,8 @@ GoalsLeft goals_left(const core::Robot& robot, const Execution& execution, doubl
   const core::Itinerary itinerary = core::itinerary_of(past);
   GoalsLeft left;
   left.visited = itinerary.first_goal;
-  // Nobody has made room for a robot without a plan: it has been served, but its load is still to come.
-  const auto load = execution.planned ? std::nullopt : first_new_radius(robot, visited_by_plan, left.visited);
+  // Nobody has made room for what it does behind its actions: it has been served, but its load is still to come.
+  const auto load = first_new_radius(robot, visited_by_plan, left.visited);
   left.visited = load.value_or(left.visited);
   for (std::size_t k = left.visited; k < robot.goal_count(); ++k) {
     core::Goal goal = robot.goal_at(k);

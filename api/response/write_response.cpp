@@ -205,22 +205,23 @@ void write_goals_put_off(JsonWriter& json, const core::PostponedGoals& goals, co
 }
 
 /// Writes the visits of a plan, and those that it leaves at the horizon. A goal that is anywhere is none of
-/// the request. `goes_on`: it puts other goals off,
-/// so that the service at its last one has an end.
+/// the request. `put_off`: goals from the first of these on, if there are any, are not visited, so that the
+/// service at the last one before them has an end.
 void write_planned_visits(JsonWriter& json, const core::RobotPlan& plan, const core::Robot& robot,
-                          bool goes_on, const ReceivedRobot& received) {
+                          const core::PostponedGoals* put_off, const ReceivedRobot& received) {
   const std::vector<GoalTexts>& texts = received.goal_texts;
+  const std::size_t count = put_off != nullptr ? put_off->first : robot.own_goal_count();
   for (const core::Visit& visit : plan.visits) {
-    if (robot.goal_at(visit.goal).anywhere) continue;
+    if (visit.goal >= count) continue;
     json.begin_object().member("goal", visit.goal).member("t_arrive", visit.t_arrive);
     const bool stays = visit.t_leave == core::kForever;
-    json.member("t_leave", stays && goes_on ? plan.cost : visit.t_leave);  // null at the last goal
+    json.member("t_leave", stays && put_off != nullptr ? plan.cost : visit.t_leave);  // null at the last goal
     if (const auto choice = choice_of(received, visit.goal)) json.member("choice", *choice);
     write_late_by(json, robot.goal_at(visit.goal), visit.t_arrive);
     end_visit(json, visit.goal, texts);
   }
   for (const core::Visit& visit : plan.estimated_visits) {
-    if (robot.goal_at(visit.goal).anywhere) continue;
+    if (visit.goal >= count) continue;
     begin_visit_without_times(json, visit.goal);
     json.member("estimated_t_arrive", visit.t_arrive);  // null without a way
     if (choice_of(received, visit.goal)) json.key("choice").json("null");
@@ -234,13 +235,11 @@ void write_planned_visits(JsonWriter& json, const core::RobotPlan& plan, const c
 void write_visits(JsonWriter& json, const core::RobotPlan& plan, const VerifiedPlan& verified) {
   const ReceivedRobot& received = verified.received[plan.robot];
   const core::Leaving* leaving = verified.problem.leaving(plan.robot);
-  const bool puts_off = leaving != nullptr && leaving->postponed;
+  const core::PostponedGoals* put_off =
+      leaving != nullptr && leaving->postponed ? &*leaving->postponed : nullptr;
   json.key("visits").begin_array();
-  const core::Robot& robot = verified.problem.robots()[plan.robot];
-  if (leaving == nullptr || !leaving->rests_outside) {
-    write_planned_visits(json, plan, robot, puts_off, received);
-  }
-  if (puts_off) write_goals_put_off(json, *leaving->postponed, verified, received);
+  write_planned_visits(json, plan, verified.problem.robots()[plan.robot], put_off, received);
+  if (put_off != nullptr) write_goals_put_off(json, *put_off, verified, received);
   json.end_array();
 }
 

@@ -1,5 +1,8 @@
 #include "core/model/open_goal.h"
 
+#include <algorithm>
+#include <optional>
+
 #include "core/geometry/segment.h"
 #include "core/model/itinerary.h"
 
@@ -49,6 +52,30 @@ void settle_by_actions(Robot& robot, std::vector<OpenGoal>& open, std::span<cons
     if (earliest == kForever) return;  // nor are those after it
     goal.is_settled = true;
   }
+}
+
+void choose_unserved(Robot& robot, std::vector<OpenGoal>& open, std::span<const Action> actions,
+                     const StopCondition& stop) {
+  const auto goal = std::find_if(open.begin(), open.end(), [](const OpenGoal& one) { return !one.is_settled; });
+  if (goal == open.end()) return;
+  const std::size_t before = goal->chosen;
+  bool any_serves = false;
+  std::optional<std::size_t> unserved;
+  std::optional<std::size_t> last;
+  for (std::size_t k = 0; k < goal->poses.size() && !stop.met(); ++k) {
+    choose(robot, *goal, k);
+    const ServedGoals served = served_goals(robot, actions);
+    if (served.visits.size() > goal->goal) {
+      any_serves = true;
+    } else if (served.in_next_pose && served.visits.size() == goal->goal) {
+      last = k;
+    } else if (!unserved || k == before) {
+      unserved = k;
+    }
+  }
+  const std::optional<std::size_t> pose = last ? last : unserved;
+  goal->is_settled = any_serves && pose;
+  choose(robot, *goal, goal->is_settled ? *pose : before);
 }
 
 }  // namespace fleetplan::core

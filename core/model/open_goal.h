@@ -47,4 +47,10 @@ bool stays_at(const Robot& robot, std::size_t goal);
 void settle_by_actions(Robot& robot, std::vector<OpenGoal>& open, std::span<const Action> actions,
                        bool also_last, const StopCondition& stop);
 
+/// Chooses a pose at which `actions` do not serve the first goal that is not settled, which whoever made them
+/// says: they may turn in one pose on their way to another. The one where they end is preferred. Ends early if
+/// `stop` is met.
+void choose_unserved(Robot& robot, std::vector<OpenGoal>& open, std::span<const Action> actions,
+                     const StopCondition& stop);
+
 }  // namespace fleetplan::core

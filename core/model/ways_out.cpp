@@ -263,23 +263,23 @@ class WaysOut {
  private:
   Leaving leaving(std::size_t index) {
     Robot& robot = robots_[index];
-    const Itinerary itinerary = itinerary_of(robot);
+    const std::size_t served = itinerary_of(robot).first_goal;
     const std::vector<double> radii = radii_of(robot);
-    const double radius = radii[itinerary.first_goal];
     Leaving result;
-    result.postponed = postponed(index, itinerary.first_goal, radii);
-    const bool has_goals_left = !result.postponed || result.postponed->first > itinerary.first_goal;
+    result.postponed = postponed(index, served, radii);
+    const bool has_goals_left = !result.postponed || result.postponed->first > served;
     const bool yields = robot.yields();
-    if (result.postponed) take_goals_away(robot, has_goals_left ? result.postponed->first : 0);
-    find_way(index, itinerary, radius, has_goals_left, result);
-    if (result.postponed && yields) robot.let_yield();
+    if (result.postponed) take_goals_away(robot, result.postponed->first);
+    if (!has_goals_left && robot.goal) robot.via.push_back(*std::exchange(robot.goal, std::nullopt));
+    find_way(index, radii[served], has_goals_left, result);
+    const bool has_goal_or_none = robot.goal || robot.via.empty();
+    if (result.postponed && (yields || !has_goal_or_none)) robot.let_yield();
     return result;
   }
 
   /// The way out of a robot that begins inside.
-  void find_way(std::size_t index, const Itinerary& itinerary, double radius, bool has_goals_left,
-                Leaving& result) {
-    const Position& from = itinerary.pose.position;
+  void find_way(std::size_t index, double radius, bool has_goals_left, Leaving& result) {
+    const Position from = robots_[index].committed_end().position;
     if (maps_.of(index)->sight().disk_fits(from, needed(radius))) return;
     const auto may_end = [&](const Position& place) {
       return has_goals_left || is_out_of_the_way(index, radius, place);

@@ -78,7 +78,8 @@ void settle_choices(const JsonReader& json, const core::RobotPlan& plan, ParsedR
     if (member) parse_choice(member, item, read);
     is_told = is_told || member;
   }
-  if (is_told || read.open.empty()) return;
+  if (read.open.empty()) return;
+  if (is_told) return core::choose_unserved(read.robot, read.open, plan.actions, json.work().reading());
   // A choice of the request is that of its own actions.
   for (core::OpenGoal& open : read.open) open.is_told = false;
   core::settle_by_actions(read.robot, read.open, plan.actions, true, json.work().reading());
