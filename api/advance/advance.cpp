@@ -64,6 +64,9 @@ GoalsLeft goals_left(const core::Robot& robot, const Execution& execution, doubl
   const Actions& actions = execution.actions;
   core::Robot past = robot;
   past.committed = executed_until(actions, progress);
+  if (past.committed.empty() && execution.planned) {  // what its plan serves at the start
+    past.committed.push_back({Action::Type::wait, 0.0, 0.0, robot.start, robot.start});
+  }
   const std::size_t visited_by_plan = core::itinerary_of(past).first_goal;
   if (past.committed_until() < progress) {
     const core::Pose pose = past.committed_end();
@@ -71,10 +74,9 @@ GoalsLeft goals_left(const core::Robot& robot, const Execution& execution, doubl
   }
   const core::Itinerary itinerary = core::itinerary_of(past);
   GoalsLeft left;
-  left.visited = itinerary.first_goal;
-  // Nobody has made room for what it does behind its actions: it has been served, but its load is still to come.
-  const auto load = first_new_radius(robot, visited_by_plan, left.visited);
-  left.visited = load.value_or(left.visited);
+  // Nobody has made room for a robot without a plan: it has been served, but its load is still to come.
+  const auto load = execution.planned ? std::nullopt : first_new_radius(robot, visited_by_plan, itinerary.first_goal);
+  left.visited = std::min(load.value_or(itinerary.first_goal), execution.first_unserved.value_or(robot.goal_count()));
   for (std::size_t k = left.visited; k < robot.goal_count(); ++k) {
     core::Goal goal = robot.goal_at(k);
     goal.not_before = std::max(0.0, goal.not_before - at);
@@ -89,7 +91,8 @@ GoalsLeft goals_left(const core::Robot& robot, const Execution& execution, doubl
   left.age = std::clamp(at - due, 0.0, kLongestTime);
   core::Goal& last = left.goals.back();
   const bool matters = last.changes_load() || execution.stays_when_served;
-  const bool is_served = matters && execution.planned && has_served_last(robot, actions, progress);
+  const bool serves_all = execution.planned && !execution.first_unserved;
+  const bool is_served = matters && serves_all && has_served_last(robot, actions, progress);
   if (is_served) take_load(last, left.load);
   if (is_served && execution.stays_when_served) {
     left.visited = robot.goal_count();
@@ -98,7 +101,8 @@ GoalsLeft goals_left(const core::Robot& robot, const Execution& execution, doubl
   }
   core::Goal& next = left.goals.front();
   const auto reported = service_left_of(execution, left.visited);
-  next.service = load ? 0.0 : reported.value_or(std::max(0.0, next.service - itinerary.service_done));
+  const double served = left.visited < itinerary.first_goal ? next.service : itinerary.service_done;
+  next.service = load ? 0.0 : reported.value_or(std::max(0.0, next.service - served));
   if (next.service <= kSameService) next.service = 0.0;
   return left;
 }
@@ -226,6 +230,21 @@ Remainder remainder_of(const core::Robot& robot, const Execution& execution, con
   return rest;
 }
 
+/// Until when it has served goals, on the clock of its actions. Who is still on the way to where an action ends
+/// has served nothing there, however near it is, and whatever it reports.
+double served_until(const core::Robot& robot, const Execution& execution, const Located& located,
+                    const Moment& moment) {
+  const auto [index, t] = located.progress;
+  if (located.is_elsewhere || index >= execution.actions.size()) return t;
+  const Action& action = execution.actions[index];
+  if (action.type == Action::Type::wait || t <= action.t_start) return t;
+  if (!execution.measured && !execution.reported) return action.t_start;
+  const Remainder rest = remainder_of(robot, execution, located, moment);
+  const bool goes_on = !rest.actions.empty() && rest.actions.front().type == action.type &&
+                       rest.actions.front().to.position == action.to.position;
+  return goes_on ? action.t_start : t;
+}
+
 /// Whether a robot that is so far in its actions is on the way, not only about to set out. Its own word
 /// counts.
 bool drives(const core::Robot& robot, const Execution& execution, const TimedProgress& progress) {
@@ -254,11 +273,19 @@ bool have_profiles(const Actions& actions, std::size_t first, const core::Robot&
   return std::all_of(begin, actions.end(), has_its_own);
 }
 
-/// Whether POST /v1/plan accepts previous actions of this robot, as far as their times and profiles go. Only
-/// committed motion may be measured.
+/// Whether POST /v1/plan accepts previous actions of this robot, as far as their times, profiles and loads go.
+/// Only committed motion may be measured.
 bool is_accepted(const Actions& previous, const core::Robot& robot) {
   const double end = previous.empty() ? 0.0 : previous.back().t_end;
-  return end <= kLongestTime && have_profiles(previous, robot.committed.size(), robot);
+  return end <= kLongestTime && have_profiles(previous, robot.committed.size(), robot) &&
+         core::count_of_executable(robot, previous) == previous.size();
+}
+
+/// Ends a commitment where the robot takes a load with which it cannot go on like that: one that is held, or gets
+/// other goals, may serve a goal where its plan did not.
+void end_before_unfit_load(core::Robot& robot) {
+  const std::size_t count = core::count_of_executable(robot, robot.committed);
+  if (count > 0 || robot.committed_speed() == 0.0) robot.committed.resize(count);
 }
 
 /// What it cannot leave out of this remainder.
@@ -362,7 +389,7 @@ Advanced advanced_with_course(const core::Robot& robot, const Execution& executi
   Course course = moment.stand_until ? standing_course(robot, execution, located, moment)
                                      : usual_course(robot, execution, located, moment);
   Remainder& rest = course.rest;
-  GoalsLeft left = goals_left(robot, execution, located.progress.t, moment.at);
+  GoalsLeft left = goals_left(robot, execution, served_until(robot, execution, located, moment), moment.at);
 
   core::Robot next = robot;
   next.start = rest.start;
@@ -376,6 +403,7 @@ Advanced advanced_with_course(const core::Robot& robot, const Execution& executi
     set_goals(next, std::move(left.goals));
     align_service(next, rest);
   }
+  end_before_unfit_load(next);
   const bool counts_age = moment.has_horizon && next.goal && !execution.goals;
   next.goal_age = counts_age && !core::has_arrived(next) ? left.age : 0.0;
   next.previous.reset();
@@ -396,7 +424,7 @@ core::Robot advanced(const core::Robot& robot, const Execution& execution, const
 PassedGoals passed_goals(const core::Robot& robot, const Execution& execution, const Moment& moment,
                          const core::Robot& next) {
   if (!execution.goals) return {};
-  const double progress = locate(robot, execution, moment).progress.t;
+  const double progress = served_until(robot, execution, locate(robot, execution, moment), moment);
   const GoalsLeft left = goals_left(robot, execution, progress, moment.at);
   return {left.visited, count_of_passed(next, left.goals)};
 }
@@ -409,7 +437,8 @@ void leave_out_unfit(std::vector<core::Robot>& next, const std::vector<core::Rob
     if (robot.previous && !is_accepted(*robot.previous, robot)) robot.previous.reset();
     if (!executions[k].goals) continue;
     if (work.met_after(kWorkOfAnAction * (1 + executions[k].actions.size()))) return;
-    const double progress = locate(robots[k], executions[k], moment).progress.t;
+    const double progress =
+        served_until(robots[k], executions[k], locate(robots[k], executions[k], moment), moment);
     set_other_goals(robot, goals_left(robots[k], executions[k], progress, moment.at).goals,
                     *executions[k].goals);
   }

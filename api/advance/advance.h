@@ -44,6 +44,7 @@ struct ReportedState {
 struct Execution {
   std::vector<core::Action> actions;  // that it executes, from t = 0 in its start
   bool planned = false;               // they are a plan; otherwise a commitment, at whose end it stays
+  std::optional<std::size_t> first_unserved = {};  // the first goal that the plan leaves, by its visits
   std::optional<core::Pose> measured = {};
   std::optional<ReportedState> reported = {};  // measured there, if it has a measured pose, too
   std::optional<double> speed = {};            // measured, metres per second, negative backwards

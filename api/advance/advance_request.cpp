@@ -79,6 +79,7 @@ void parse_events(const JsonReader& root, const RobotNames& names, const Limits&
       executions[*robot].goals->emplace_back().anywhere = true;
     }
     request.repeated[*robot].others = std::move(goals.texts);
+    request.repeated[*robot].other_open = std::move(goals.open);
   });
 }
 
@@ -193,6 +194,7 @@ void take_robot(std::size_t index, AdvanceRequest& read) {
   Execution& execution = read.executions[index];
   execution.stop_distance = given.stop_distance;
   execution.stays_when_served = given.idle == Idle::stay;
+  execution.first_unserved = given.first_unserved;
   core::Robot robot = given.robot;
   if (!execution.planned) execution.actions = robot.committed;
   // A robot that is off its path turns back as slowly as it has to anywhere.
@@ -332,13 +334,15 @@ class GoalsToRepeat {
   bool is_open(std::size_t goal) const {
     if (texts_of(goal).any_of.empty() || is_passed(goal)) return false;
     const core::Goal& next = left_.goal_at(goal);
-    if (goal > 0 || settled(goal) == nullptr || !core::is_in_pose(left_.start, next)) return true;
+    const core::OpenGoal* open = open_goal(goal);
+    const bool is_settled = !are_other_ && open != nullptr && open->is_settled;
+    if (goal > 0 || !is_settled || !core::is_in_pose(left_.start, next)) return true;
     return repeated_.returns && left_.own_goal_count() == 1 && next.service == 0.0;
   }
 
-  /// The number of the pose at which the actions of the robot serve a goal that is open.
+  /// The number of the only pose at which the actions of the robot may serve a goal that is open.
   std::optional<std::size_t> choice(std::size_t goal) const {
-    const core::OpenGoal* open = settled(goal);
+    const core::OpenGoal* open = open_goal(goal);
     if (open == nullptr || (left_.committed.empty() && !left_.previous)) return std::nullopt;
     return open->choice().number;
   }
@@ -354,11 +358,12 @@ class GoalsToRepeat {
  private:
   bool is_passed(std::size_t goal) const { return are_other_ && goal < passed_.count; }
 
-  /// The goal, if the plan serves it at one of several poses; otherwise null.
-  const core::OpenGoal* settled(std::size_t goal) const {
-    if (are_other_) return nullptr;
-    for (const core::OpenGoal& open : repeated_.open) {
-      if (open.is_settled && open.goal == passed_.first + goal) return &open;
+  /// The goal, if it has several poses; otherwise null.
+  const core::OpenGoal* open_goal(std::size_t goal) const {
+    if (is_passed(goal)) return nullptr;
+    const std::size_t number = are_other_ ? goal - passed_.count : passed_.first + goal;
+    for (const core::OpenGoal& open : are_other_ ? repeated_.other_open : repeated_.open) {
+      if (open.goal == number) return &open;
     }
     return nullptr;
   }

@@ -21,10 +21,11 @@ namespace fleetplan::api {
 
 /// What the answer repeats of the goals of a robot, and of those that replace them.
 struct RepeatedGoals {
-  std::vector<GoalTexts> texts;      // see ParsedGoals
-  std::vector<GoalTexts> others;     // of those that replace them
-  std::vector<core::OpenGoal> open;  // as its plan has settled them
-  bool returns = false;              // it may come back to any pose of its last goal, if that is open
+  std::vector<GoalTexts> texts;            // see ParsedGoals
+  std::vector<GoalTexts> others;           // of those that replace them
+  std::vector<core::OpenGoal> open;        // as its plan has settled them
+  std::vector<core::OpenGoal> other_open;  // of those that replace them
+  bool returns = false;                    // it may come back to any pose of its last goal, if that is open
 };
 
 /// A readable body of POST /v1/advance, in the frame of its map.

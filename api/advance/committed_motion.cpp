@@ -400,9 +400,9 @@ class Clearing {
     return found;
   }
 
-  /// Without the stay at the end.
+  /// Without the stay at the end, unless the disk becomes larger as it begins.
   static std::span<const Piece> committed(std::span<const Piece> pieces) {
-    return pieces.first(pieces.size() - 1);
+    return pieces.back().grows ? pieces : pieces.first(pieces.size() - 1);
   }
 
   /// Whether a commitment that ends then is shorter.

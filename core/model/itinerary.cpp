@@ -166,11 +166,13 @@ Itinerary itinerary_of(const Robot& robot) {
   itinerary.committed = committed_trajectory(robot);
   itinerary.pose = robot.committed_end();
   itinerary.t_begin = robot.committed_until();
-  ServedGoals served = served_goals(robot, robot.committed);
-  itinerary.visited = std::move(served.visits);
-  itinerary.first_goal = itinerary.visited.size();
-  itinerary.arrived = served.arrived;
-  itinerary.service_done = served.service_done;
+  if (!robot.committed.empty()) {
+    ServedGoals served = served_goals(robot, robot.committed);
+    itinerary.visited = std::move(served.visits);
+    itinerary.first_goal = itinerary.visited.size();
+    itinerary.arrived = served.arrived;
+    itinerary.service_done = served.service_done;
+  }
   for (std::size_t k = itinerary.first_goal; k < robot.goal_count(); ++k) {
     itinerary.goals.push_back(robot.goal_at(k));
   }

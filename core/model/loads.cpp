@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "core/geometry/tolerance.h"
 #include "core/model/trajectory.h"
 
 namespace fleetplan::core {
@@ -44,6 +45,31 @@ Load load_during(const Robot& robot, std::span<const Action> actions, std::size_
   LoadOnTheWay on_the_way(robot);
   for (const Action& action : actions.first(index)) on_the_way.execute(action);
   return on_the_way.load();
+}
+
+namespace {
+
+bool can_execute(const Robot& robot, const Load& load, Action action) {
+  if (action.type != Action::Type::translate) return true;
+  const double duration = action.t_end - action.t_start;
+  if (amount_of(action) > load.linear_speed * duration + kContactTolerance) return false;
+  if (!action.profile) return true;
+  set_inertia(action, robot, load);
+  return action.profile->cruise <= load.linear_speed + kContactTolerance && profile_fits(action);
+}
+
+}  // namespace
+
+std::size_t count_of_executable(const Robot& robot, std::span<const Action> actions) {
+  if (!changes_load(robot)) return actions.size();
+  const Load first = first_load(robot);
+  LoadOnTheWay on_the_way(robot);
+  for (std::size_t k = 0; k < actions.size(); ++k) {
+    const Load& load = on_the_way.load();
+    if (load != first && !can_execute(robot, load, actions[k])) return k;
+    on_the_way.execute(actions[k]);
+  }
+  return actions.size();
 }
 
 void set_load(Robot& robot, const Load& load) {

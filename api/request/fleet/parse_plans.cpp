@@ -85,6 +85,14 @@ void settle_choices(const JsonReader& json, const core::RobotPlan& plan, ParsedR
   core::settle_by_actions(read.robot, read.open, plan.actions, true, json.work().reading());
 }
 
+/// The first goal that is without times in the visits of a plan.
+std::optional<std::size_t> find_unserved(const JsonReader& visits) {
+  for (const JsonReader visit : visits.items()) {
+    if (visit.find("t_arrive").is_null()) return visit.find("goal").natural();
+  }
+  return std::nullopt;
+}
+
 core::RobotPlan parse_plan(const JsonReader& json, const WorldFrame& frame) {
   core::RobotPlan plan;
   const JsonReader actions = json.require("actions").array();
@@ -140,6 +148,7 @@ std::vector<core::RobotPlan> parse_plans(const JsonReader& member, std::vector<P
     if (const auto owner = roster.assign(json.require("robot"))) {
       plan.robot = *owner;
       is_planned[*owner] = true;
+      robots[*owner].first_unserved = find_unserved(json.find("visits"));
       settle_choices(json, plan, robots[*owner]);
       core::set_inertia(plan.actions, robots[*owner].robot);
       plans.push_back(std::move(plan));

@@ -65,6 +65,8 @@ struct ParsedRobot {
   bool lists_visits = false;               // see ParsedGoals
   std::vector<GoalTexts> goal_texts;       // see ParsedGoals
   std::vector<core::OpenGoal> open;        // see ParsedGoals; the robot's goals have the choices
+  /// The first goal that its plan does not serve, if the visits of the plan say so.
+  std::optional<std::size_t> first_unserved = {};
   std::string metadata;                    // see parse_metadata
   std::optional<double> execution_margin;  // metres
   double stop_distance = 0.0;              // metres that it drives until it stands, see /v1/advance
