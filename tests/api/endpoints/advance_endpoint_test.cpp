@@ -10,6 +10,7 @@
 
 #include "api/endpoints/endpoints.h"
 #include "tests/api/support/answers.h"
+#include "tests/api/support/motion_requests.h"
 #include "tests/api/support/requests.h"
 #include "tests/api/support/test_turn.h"
 
@@ -56,6 +57,62 @@ TEST(AdvanceEndpoint, WritesTheRadiusThatALoadGivesARobot) {
   EXPECT_EQ(next[0]["goals"].size(), 1U);
   EXPECT_EQ(next[0]["goals"][0]["radius_after"], 0.25);
   EXPECT_EQ(next[1].contains("radius"), request["robots"][1].contains("radius"));
+}
+
+/// One robot that drives 1 m/s from x = 0.5 to 2.5, and on to 4.5.
+Json driving_body() {
+  Json request = swap_request();
+  request["map"]["rows"] = {".........", ".........", "........."};
+  request["robots"].erase(1);
+  Json& robot = request["robots"][0];
+  robot.erase("goal");
+  robot["start"] = pose(0.5, 1.5);
+  robot["goals"] = {{{"x", 2.5}, {"y", 1.5}}, {{"x", 4.5}, {"y", 1.5}}};
+  const Json plan{{"robot", robot["id"]},
+                  {"actions", {action("translate", 0.0, 2.0, pose(0.5, 1.5), pose(2.5, 1.5)),
+                               action("translate", 2.0, 4.0, pose(2.5, 1.5), pose(4.5, 1.5))}}};
+  return {{"request", request}, {"plans", {plan}}, {"at", 1.0}, {"commit", 10.0}};
+}
+
+TEST(AdvanceEndpoint, ALoadThatARobotTakesWhereItIsHeldMayBeTooSlowForTheRestOfItsPlan) {
+  Json body = driving_body();
+  body["at"] = 2.0;
+  body["request"]["robots"][0]["goals"][0] = {{"x", 2.5}, {"y", 1.5}, {"service", 5.0}, {"linear_speed_after", 0.5}};
+  body["holds"].push_back({{"robot", "a"}, {"until", 8.0}});
+  const Json next = advanced_json(body);
+  EXPECT_FALSE(next["robots"][0].contains("previous")) << next;
+  EXPECT_EQ(plan_of(next)["status"], "solved");
+}
+
+TEST(AdvanceEndpoint, CommitmentsEndWhereNewGoalsSlowARobotDown) {
+  Json body = driving_body();
+  body["goals"].push_back({{"robot", "a"},
+                           {"goals", {{{"x", 2.5}, {"y", 1.5}, {"linear_speed_after", 0.5}}, {{"x", 0.5}, {"y", 1.5}}}}});
+  const Json next = advanced_json(body);
+  ASSERT_EQ(next["robots"][0]["committed"].size(), 1U) << next;
+  EXPECT_EQ(next["robots"][0]["committed"][0]["to"]["x"], 2.5);
+  EXPECT_EQ(plan_of(next)["status"], "solved");
+}
+
+TEST(AdvanceEndpoint, ARobotServesNothingBeforeItHasComeThereWhateverItReports) {
+  Json body = driving_body();
+  body["request"]["robots"][0]["goals"][0]["radius_after"] = 0.2;
+  body["at"] = 2.0;
+  body["states"].push_back({{"robot", "a"}, {"action", 0}, {"progress", 1.0}, {"x", 2.45}, {"y", 1.5}});
+  const Json next = advanced_json(body);
+  EXPECT_EQ(next["robots"][0]["goals"].size(), 2U) << next;
+  EXPECT_EQ(next["robots"][0]["committed"][0]["to"]["x"], 2.5);
+  EXPECT_EQ(plan_of(next)["status"], "solved");
+}
+
+TEST(AdvanceEndpoint, ADiskThatWouldBecomeLargerWhereItsCommitmentEndsStopsBeforeThat) {
+  Json body = driving_body();
+  body["request"]["robots"][0]["goals"][0]["radius_after"] = 0.45;
+  body["request"]["robots"].push_back({{"id", "b"}, {"radius", 0.3}, {"start", pose(2.5, 0.8)}, {"goal", pose(2.5, 0.8)}});
+  body.erase("commit");
+  const Json next = advanced_json(body);
+  EXPECT_LT(next["robots"][0]["committed"].back()["to"]["x"].get<double>(), 2.5) << next;
+  EXPECT_FALSE(next.contains("unavoidable"));
 }
 
 TEST(AdvanceEndpoint, KeepsTheNumbersOfThePlan) {

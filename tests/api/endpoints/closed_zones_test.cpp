@@ -151,5 +151,64 @@ TEST(ClosedZones, EnterIsFalseAndForBlockedZones) {
   EXPECT_NE(detail_of(request).find("blocked only"), std::string::npos);
 }
 
+/// A robot that is committed to serve its first goal, to wait, and that has its other goals inside of the zone.
+Json serving_request(double radius_after) {
+  Json request = hall_request();
+  request["robots"].erase(0);
+  Json& robot = request["robots"][0];
+  robot["start"]["theta"] = 0.0;
+  robot["goals"][0] = {{"x", 100.5}, {"y", 50.5}, {"service", 2}, {"radius_after", radius_after}};
+  Json wait{{"type", "wait"}, {"t_start", 0.0}, {"t_end", 5.0}, {"from", robot["start"]}, {"to", robot["start"]}};
+  robot["committed"] = {wait};
+  return request;
+}
+
+TEST(ClosedZones, WhatCommitmentsServeIsServedIfAllOtherGoalsArePutOff) {
+  for (const double x : {100.5, 105.5}) {  // outside, and inside, from where it leaves
+    Json request = serving_request(0.35);
+    request["robots"][0]["start"]["x"] = request["robots"][0]["goals"][0]["x"] = x;
+    request["robots"][0]["start"]["y"] = request["robots"][0]["goals"][0]["y"] = x > 104.0 ? 52.5 : 50.5;
+    for (const char* end : {"from", "to"}) {
+      request["robots"][0]["committed"][0][end] = request["robots"][0]["start"];
+    }
+    const Json answer = plan_of(request);
+    ASSERT_EQ(answer["status"], "solved") << answer;
+    const Json& plan = answer["plans"][0];
+    EXPECT_EQ(plan["ends_at"], "zone");
+    ASSERT_EQ(plan["visits"].size(), 3U) << plan;
+    EXPECT_EQ(plan["visits"][0]["t_leave"], 2.0);
+    EXPECT_EQ(plan["visits"][1]["reason"], "zone_closed");
+    EXPECT_EQ(json_of(validate_endpoint(merged(request, answer).dump(), {}))["valid"], true);
+    const Json body{{"request", request}, {"plans", answer["plans"]}, {"at", 3.0}};
+    const Json next = json_of(advance_endpoint(body.dump(), {}));
+    EXPECT_EQ(next["robots"][0]["radius"], 0.35) << next;
+    EXPECT_EQ(next["robots"][0]["goals"].size(), 2U);
+  }
+}
+
+TEST(ClosedZones, OthersMakeRoomForALoadThatACommitmentTakes) {
+  Json request = serving_request(0.5);
+  request["robots"].push_back({{"id", "by"}, {"start", {{"x", 101.25}, {"y", 50.5}}}, {"goal", {{"x", 103}, {"y", 50.5}}}});
+  const Json answer = plan_of(request);
+  EXPECT_EQ(json_of(validate_endpoint(merged(request, answer).dump(), {}))["valid"], true) << answer;
+  const Json body{{"request", request}, {"plans", answer["plans"]}, {"at", 3.0}};
+  EXPECT_EQ(json_of(advance_endpoint(body.dump(), {}))["robots"][0]["radius"], 0.5);
+}
+
+TEST(ClosedZones, AGoalThatIsPutOffAtTheStartIsNotServedLater) {
+  Json request = hall_request();
+  request["robots"].erase(1);
+  Json& robot = request["robots"][0];
+  robot.erase("goal");
+  robot["goals"] = {robot["start"], {{"x", 111.5}, {"y", 54.5}}};
+  robot["goals"][0]["radius_after"] = 0.5;
+  const Json answer = plan_of(request);
+  ASSERT_EQ(answer["plans"][0]["visits"][0]["reason"], "zone_closed") << answer;
+  const Json body{{"request", request}, {"plans", answer["plans"]}, {"at", 1.0}};
+  const Json next = json_of(advance_endpoint(body.dump(), {}));
+  EXPECT_EQ(next["robots"][0]["goals"].size(), 2U) << "as the plan says";
+  EXPECT_EQ(next["robots"][0].value("radius", 0.3), 0.3);
+}
+
 }  // namespace TEST_FILE
 }  // namespace fleetplan::api

@@ -183,6 +183,32 @@ TEST(OpenGoals, AreOpenAtTheHorizon) {
   EXPECT_EQ(now["robots"][0]["goal"]["x"], 8.5) << "it has arrived";
 }
 
+TEST(OpenGoals, APoseThatAPlanTurnsInIsNotServedIfItSaysSo) {
+  Json request = swap_request();
+  request["robots"].erase(1);
+  Json& robot = request["robots"][0];
+  robot.erase("goal");
+  robot["start"] = pose(0.5, 1.5);
+  robot["goals"] = {{{"any_of", {pose(2.5, 1.5, 1.0), {{"x", 5.5}, {"y", 1.5}}}}, {"radius_after", 0.2}},
+                    {{"x", 0.5}, {"y", 1.5}}};
+  robot["goals"][0]["any_of"][0].erase("theta");
+  const Json plan{{"robot", robot["id"]},
+                  {"actions", {action("translate", 0.0, 4.0, pose(0.5, 1.5), pose(2.5, 1.5)),
+                               action("rotate", 4.0, 8.0, pose(2.5, 1.5), pose(2.5, 1.5, 1.0)),
+                               action("wait", 8.0, 9.0, pose(2.5, 1.5, 1.0), pose(2.5, 1.5, 1.0))}},
+                  {"visits", {{{"goal", 0}, {"t_arrive", nullptr}, {"t_leave", nullptr}, {"choice", nullptr}},
+                              {{"goal", 1}, {"t_arrive", nullptr}, {"t_leave", nullptr}}}}};
+  const Json body{{"request", request}, {"plans", {plan}}, {"at", 5.0}, {"commit", 10.0}};
+  const Reply reply = advance_endpoint(body.dump(), {});
+  ASSERT_EQ(reply.status, 200) << reply.body;
+  const Json next = json_of(reply)["robots"][0];
+  EXPECT_EQ(next["goals"].size(), 2U) << next;
+  EXPECT_EQ(next["goals"][0]["choice"], 1) << "nor do its actions serve it when they are read again";
+  Json said = body;
+  said["plans"][0]["visits"][0] = {{"goal", 0}, {"t_arrive", 4.0}, {"t_leave", 4.0}, {"choice", 0}};
+  EXPECT_EQ(json_of(advance_endpoint(said.dump(), {}))["robots"][0]["goals"].size(), 1U);
+}
+
 TEST(OpenGoals, NewGoalsMayBeOpen) {
   const Json request = dock_request({2.5}, 5);
   const Json answer = plan_of(request);

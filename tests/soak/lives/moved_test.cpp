@@ -142,6 +142,13 @@ void expect_all_moved(Dice& dice, const Json& request, const Shift& by) {
   simulated["disturbance"] = {{"start_delay", {{"min", 0.0}, {"max", 0.5}}}};
   expect_moved("simulate", of(simulate_endpoint), simulated, by);
   if (dependencies.is_null()) return;
+  executed["dependencies"] = dependencies.at("dependencies");
+  executed["version"] = dice.chance(0.5) ? "2.1.0" : "3.0.0";
+  executed["manufacturer"] = "acme";
+  executed["timestamp"] = "2026-01-31T12:00:00.000Z";
+  executed["map_id"] = "hall";
+  if (dice.chance(0.5)) executed["release_ahead"] = dice.between(1.0, 20.0);
+  expect_moved("export", of(vda5050_endpoint), executed, by);
   Json retimed{{"robots", request.at("robots")},
                {"plans", answer.at("plans")},
                {"dependencies", dependencies.at("dependencies")},
