@@ -3,9 +3,12 @@
 stopped and pushed by hand, lose their place, and send messages that nobody can read, and with a server whose answers are
 now and then lost or wrong. Their time is simulated.
 
-Usage: vda.py [--binary FLEETPLAN | --url URL] [--minutes N] [--robots N] [--version 2.1.0 | 3.0.0] [--seed N]
+Usage: vda.py [--binary FLEETPLAN | --url URL] [--minutes N | --seconds N] [--robots N] [--version 2.1.0 | 3.0.0]
+              [--seed N]
 
-Prints what it did. The exit status is 1 unless each mission was served exactly once in the end, the ways that are released
+--minutes are those of this machine, --seconds those of the vehicles, for each version: the same on every machine.
+
+Prints what it did, with a digest: two runs in which the same happened have the same. The exit status is 1 unless each mission was served exactly once in the end, the ways that are released
 to vehicles never came too near to each other, nobody was met but by a vehicle that was pushed, no vehicle stood for long
 without a reason, and nothing but FleetplanError was raised.
 """
@@ -13,6 +16,7 @@ without a reason, and nothing but FleetplanError was raised.
 import argparse
 import collections
 import copy
+import hashlib
 import itertools
 import json
 import logging
@@ -99,6 +103,7 @@ class Soak:
         self.displaced = set()  # vehicles that were pushed, until they have another order
         self.fine_since = dict.fromkeys(self.vehicles, 0.0)
         self.longest_stand, self.told = 0.0, collections.Counter()
+        self.digest = hashlib.sha256()
         self.client = Flaky(client, self.dice, self.counts)
         self.loop = VdaLoop(self.client, self.request, manufacturer=MAKE, version=version, map_id="hall",
                             clock=lambda: self.now, background=False,
@@ -129,6 +134,7 @@ class Soak:
         for vehicle in self.vehicles.values():
             vehicle.legs = []
             vehicle.drive(self.now)
+            self.digest.update(repr((vehicle.pose, vehicle.last, vehicle.update_id, vehicle.missions)).encode())
         self.check_motion()
         self.now += STEP_S
 
@@ -317,6 +323,15 @@ class Soak:
                 if times > 1:
                     self.fail(f"the mission {mission} was served {times} times")
 
+    def run(self, is_over):
+        """Disturbs the vehicles until it is over, and finishes."""
+        try:
+            while not is_over(self.now) and len(self.failures) < MOST_FAILURES:
+                self.step(True)
+            self.finish()
+        except Exception:  # to tell when and how
+            self.fail(f"the loop has ended by\n{traceback.format_exc()}")
+
     def print_report(self):
         reasons = collections.Counter(why for vehicle in self.vehicles.values() for why, _ in vehicle.refused)
         print(f"{self.now:.0f} s of {len(self.vehicles)} vehicles: "
@@ -324,6 +339,7 @@ class Soak:
               f"{self.loop.rounds} rounds, at most {max(0.0, self.longest_stand):.0f} s of standing without a reason")
         for title, counts in (("done", self.counts), ("told", self.told), ("orders refused", reasons)):
             print(f"{title}: " + ", ".join(f"{count} {what}" for what, count in sorted(counts.items())))
+        print(f"digest: {self.digest.hexdigest()[:16]}", flush=True)
 
 
 def apart(way, other):
@@ -358,7 +374,9 @@ def main():
     parser = argparse.ArgumentParser(description="Runs the loop for vehicles of VDA 5050 with vehicles that disturb it.")
     parser.add_argument("--binary", help="the server to start")
     parser.add_argument("--url", help="a server that is already running")
-    parser.add_argument("--minutes", type=float, default=60.0)
+    length = parser.add_mutually_exclusive_group()
+    length.add_argument("--minutes", type=float, default=60.0, help="of this machine, for all")
+    length.add_argument("--seconds", type=float, help="of the vehicles, for each version")
     parser.add_argument("--robots", type=int, default=10)
     parser.add_argument("--version", choices=("2.1.0", "3.0.0"), help="by default both, one after the other")
     parser.add_argument("--seed", type=int, default=int(time.time()))
@@ -370,17 +388,12 @@ def main():
     print(f"seed {arguments.seed}, {server.url}", flush=True)
     failures = []
     versions = [arguments.version] if arguments.version else ["2.1.0", "3.0.0"]
-    turns = max(1, round(arguments.minutes / TURN_MIN / len(versions))) * versions
+    turns = versions if arguments.seconds else max(1, round(arguments.minutes / TURN_MIN / len(versions))) * versions
     for number, version in enumerate(turns):
         client = Client(server.url)
         soak = Soak(client, arguments.robots, version, arguments.seed + number)
         end = time.monotonic() + 60.0 * arguments.minutes / len(turns)
-        try:
-            while time.monotonic() < end and len(soak.failures) < MOST_FAILURES:
-                soak.step(True)
-            soak.finish()
-        except Exception:  # to tell when and how
-            soak.fail(f"the loop has ended by\n{traceback.format_exc()}")
+        soak.run(lambda now, end=end: now >= arguments.seconds if arguments.seconds else time.monotonic() >= end)
         print(f"VDA 5050 {version}, seed {arguments.seed + number}, ", end="")
         soak.print_report()
         failures += soak.failures[:MOST_FAILURES]
