@@ -202,6 +202,20 @@ class Loop(unittest.TestCase):
         self.assertGreater(stopped.served, served, "it has got another order")
         self.assertEqual(day.met, ([], []))
 
+    def test_messages_that_are_lost_are_sent_again(self):
+        day = Day(self.client, 4, seed=2)
+        name, vehicle = next(iter(day.vehicles.items()))
+        take, vehicle.take = vehicle.take, lambda message: None
+        day.run(1.0)
+        vehicle.take = take
+        day.run(30.0)
+        self.assertNotEqual(vehicle.order_id, "")
+        self.assertTrue(day.loop.cancel(name), "it has an order")  # and the message is lost
+        order = vehicle.order_id
+        day.run(20.0)
+        self.assertNotEqual(vehicle.order_id, order)
+        self.assertEqual((day.refused, day.met), ([], ([], [])))
+
 
 if __name__ == "__main__":
     unittest.main()
