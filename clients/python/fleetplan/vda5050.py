@@ -102,7 +102,7 @@ class VdaLoop(PlanningLoop):
         self._states: dict[str, VdaMessage] = {}  # by robot, the last ones
         self._imported: dict[str, VdaMessage] = {}  # by robot, the last ones that the service has read
         self._lock = threading.Lock()  # of the states
-        self._orders: dict[str, VdaMessage] = {}  # the last messages, by robot
+        self._orders: dict[str, VdaMessage] = {}  # the last messages, with the nodes before them, by robot
         self._cancels: dict[str, str] = {}  # ids of the actions that cancel orders, by robot
         self._sent: dict[str, tuple[float, Message]] = {}  # the last messages, and when, by robot
         self._plan: _Plan | None = None
@@ -341,10 +341,22 @@ class VdaLoop(PlanningLoop):
                 robot, {"robot": robot, "action": first["action"], "progress": first["progress"]})
             known["order_id"], known["order_update_id"] = order["orderId"], order["orderUpdateId"]
             known["last_released_sequence_id"] = entry["last_released_sequence_id"]
-            self._orders[robot] = order
+            self._orders[robot] = self._with_nodes_before(robot, order)
             self.cancelled.pop(robot, None)
             messages.append(self._message(robot, "order", order))
         return messages
+
+    def _with_nodes_before(self, robot: str, order: VdaMessage) -> VdaMessage:
+        """An update with the released nodes of the messages before it that the vehicle has not left, as far as is known:
+        it may still fail to do an action there."""
+        before, state = self._orders.get(robot), self._imported.get(robot, {})
+        if before is None or before["orderId"] != order["orderId"]:
+            return order
+        is_known = state.get("orderId") == order["orderId"] and state.get("lastNodeId")
+        reached = state.get("lastNodeSequenceId", 0) if is_known else 0
+        first = order["nodes"][0]["sequenceId"]
+        nodes = [node for node in before["nodes"] if node["released"] and reached <= node["sequenceId"] < first]
+        return {**order, "nodes": [*nodes, *order["nodes"]]}
 
     def _begin_cancel(self, robot: str, action_id: str, reason: str) -> None:
         self._cancels[robot] = action_id
