@@ -126,10 +126,7 @@ class Soak:
         except FleetplanError as error:
             self.fail(f"the loop has raised {error}")
             messages = []
-        for message in messages:
-            self.counts["orders" if message.topic == "order" else "orders cancelled"] += 1
-            self.vehicles[message.serial_number].inbox.append(message)
-            self.check_released(message)
+        self.send(messages)
         self.give_missions(disturbs)
         for vehicle in self.vehicles.values():
             vehicle.legs = []
@@ -137,6 +134,12 @@ class Soak:
             self.digest.update(repr((vehicle.pose, vehicle.last, vehicle.update_id, vehicle.missions)).encode())
         self.check_motion()
         self.now += STEP_S
+
+    def send(self, messages):
+        for message in messages:
+            self.counts["orders" if message.topic == "order" else "orders cancelled"] += 1
+            self.vehicles[message.serial_number].inbox.append(message)
+            self.check_released(message)
 
     def report(self, vehicle, payload):
         try:
@@ -176,7 +179,7 @@ class Soak:
             elif self.dice.random() < STEP_S / EVERY_S:
                 self.fine_since[vehicle.name] = self.now + SETTLES_S
                 kind = self.dice.choice([self.rubbish, self.rubbish, self.refuse, self.fail_action, self.restart, self.push,
-                                         self.push, self.stop, self.pause, self.lose_place, self.change_map, self.break_down])
+                                         self.push, self.cancel, self.stop, self.pause, self.lose_place, self.change_map, self.break_down])
                 kind(vehicle)
 
     def end_disturbances(self):
@@ -205,9 +208,13 @@ class Soak:
         self.counts["actions to fail"] += 1
         vehicle.fails_next = True
 
+    def cancel(self, vehicle):
+        """Somebody cancels the order."""
+        self.send(self.loop.cancel(vehicle.name, "somebody wants it"))
+
     def has_told_all(self, vehicle):
         """What is not told before it restarts nobody can know."""
-        return self.now - vehicle.finished_at > 3.0
+        return self.now - vehicle.finished_at > 1.0
 
     def restart(self, vehicle):
         if self.has_told_all(vehicle):
@@ -215,12 +222,10 @@ class Soak:
             vehicle.forget()
 
     def push(self, vehicle):
-        if not self.has_told_all(vehicle):
-            return
         self.until(vehicle, "driven by hand", lambda: setattr(vehicle, "mode", "AUTOMATIC"))
         vehicle.mode = "MANUAL"
         vehicle.drop()
-        if self.dice.random() < 0.3:
+        if self.dice.random() < 0.3 and self.has_told_all(vehicle):
             vehicle.forget()
         angle, far = self.dice.uniform(-math.pi, math.pi), self.dice.uniform(0.1, PUSHED_M)
         x, y = vehicle.pose["x"] + far * math.cos(angle), vehicle.pose["y"] + far * math.sin(angle)
