@@ -147,6 +147,22 @@ std::string spoil(Json& state, Dice& dice) {
   return wrong;
 }
 
+/// Makes a state one after which a vehicle goes no further: it has dropped or forgotten its order, or failed
+/// to do what it should. Returns what it says.
+std::string end_by(Json& state, Dice& dice) {
+  static const std::vector<const char*> kEnds{
+      R"({"nodeStates": [], "edgeStates": [], "driving": false})",
+      R"({"nodeStates": [], "operatingMode": "MANUAL"})",
+      R"({"orderId": "", "lastNodeId": "", "nodeStates": [], "actionStates": []})"};
+  const int kind = dice.below(static_cast<int>(kEnds.size()) + 1);
+  if (kind < static_cast<int>(kEnds.size())) {
+    state.merge_patch(Json::parse(kEnds[static_cast<std::size_t>(kind)]));
+    return kEnds[static_cast<std::size_t>(kind)];
+  }
+  for (Json& action : state["actionStates"]) action["actionStatus"] = "FAILED";
+  return "failed";
+}
+
 /// A fleet in a hall with a few walls.
 Json random_request(Dice& dice) {
   constexpr int kSide = 10;
@@ -192,6 +208,7 @@ class Fleet {
     for (const Json& robot : plan["plans"]) {
       if (!robot["actions"].empty()) vehicles_.emplace(robot["robot"], Driver(robot));
     }
+    ends_ = dice.chance(0.4);
     if (dice.chance(0.5)) body_["release_ahead"] = dice.between(2.0, 8.0);
   }
 
@@ -216,6 +233,8 @@ class Fleet {
   }
 
   bool has_arrived() const { return has_arrived_; }
+  /// Whether vehicles may have gone no further.
+  bool ends() const { return ends_; }
 
  private:
   void send() {
@@ -247,6 +266,12 @@ class Fleet {
 
   Json report(const std::string& id, const Driver& vehicle, double wrong) {
     Json& before = reported_[id];
+    if (ends_ && dice_.chance(0.05 * wrong)) {
+      Json state = vehicle.state_at(vehicle.at());
+      shown_[id] = std::max(shown_[id], vehicle.at());
+      told_ += id + " " + end_by(state, dice_) + "\n";
+      return state;
+    }
     if (dice_.chance(wrong)) {
       Json state = vehicle.state_at(dice_.between(vehicle.at(), vehicle.most()));
       told_ += id + " " + spoil(state, dice_) + "\n";
@@ -269,6 +294,7 @@ class Fleet {
   std::map<std::string, Json> reported_;
   std::string told_;
   bool has_arrived_ = false;
+  bool ends_ = false;
 };
 
 TEST(RandomReports, OpenNoGateWrongly) {
@@ -286,6 +312,7 @@ TEST(RandomReports, OpenNoGateWrongly) {
     dependencies += static_cast<int>(plan["dependencies"].size());
     Fleet fleet(dice, request, plan);
     for (int k = 0; k < kSteps && !testing::Test::HasFailure(); ++k) fleet.step(0.5);
+    if (fleet.ends()) continue;
     for (int k = 0; k < kStepsToTheEnd && !fleet.has_arrived() && !testing::Test::HasFailure(); ++k)
       fleet.step(0.0);
     ASSERT_TRUE(fleet.has_arrived());
