@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 #include <vector>
 
 #include "api/json/errors.h"
@@ -39,6 +40,7 @@ struct OrderBase {
   bool has_horizon = false;                 // it has nodes that are not released
   bool is_unsure = false;                   // the vehicle may have reached some that are still to do
   bool is_known = false;                    // the vehicle has reported of it before
+  std::unordered_set<std::string_view> finished;  // actions, by id, when the plan began
 };
 
 /// Returns the place in these actions from which on the robot stands.
@@ -81,6 +83,7 @@ struct OrderProgress {
   std::uint64_t last_released = 0;                 // the sequence id of the last node of the base
   std::optional<std::string> cancel_id = {};       // of the action that cancels the order
   std::optional<std::string> ended_order_id = {};  // without an order: of the one that was cancelled or lost
+  std::size_t served = 0;                          // goals of the plan, the first ones; opens no gates
 };
 
 /// What the messages to a vehicle say of it.

@@ -84,7 +84,7 @@ class StatesWriter {
     write_place(json_, place);
     // A vehicle that has gone on after an action has failed is somewhere on the way that is released for it.
     const bool is_beyond = place < places_[robot];
-    if (measured && (!has_order || (!is_beyond && matters(robot, *measured)))) {
+    if (measured && (!has_order || (!is_beyond && matters(robot, place, *measured)))) {
       json_.member("x", measured->position.x()).member("y", measured->position.y());
       // A vehicle on its way turns as it likes; one without an order begins with the heading that it has.
       if (!has_order) json_.member("theta", measured->theta);
@@ -98,8 +98,7 @@ class StatesWriter {
   }
 
   /// Whether a pose tells more than the place: it is between two nodes, or beside the path.
-  bool matters(std::size_t robot, const core::Pose& measured) const {
-    const core::ActionPlace& place = places_[robot];
+  bool matters(std::size_t robot, const core::ActionPlace& place, const core::Pose& measured) const {
     return place.fraction > 0.0 ||
            (position_at(actions(robot), place) - measured.position).norm() > kBesidePath;
   }
@@ -122,6 +121,7 @@ class StatesWriter {
       json_.member("last_released_sequence_id", progress.last_released);
       if (progress.cancel_id) json_.member("cancel_id", *progress.cancel_id);
     }
+    if (trackers_[robot].served() > 0) json_.member("served", trackers_[robot].served());
     write_place(json_, places_[robot]);
     json_.end_object();
   }

@@ -60,11 +60,15 @@ OrderTracker::OrderTracker(const VdaRequest& request, std::size_t robot, const V
       progress_(request.progress[robot]),
       route_(request.routes[robot]),
       actions_(request.actions[robot]),
-      end_(find_end()) {
+      end_(find_end()),
+      served_(std::min(progress_.served, request.robots[robot].goal_count())) {
   if (progress_.order_id && state_ != nullptr && state_->order_id == *progress_.order_id &&
       !state_->failed_actions.empty()) {
     find_failed_actions();
     find_failed_actions_of_base();
+  }
+  if (is_of_order() && !state_->finished_actions.empty()) {
+    served_ = std::max(served_, std::min(find_served_goals().count, goals_before_failure()));
   }
 }
 
@@ -145,7 +149,7 @@ core::ActionPlace OrderTracker::place() const {
 }
 
 core::ActionPlace OrderTracker::place_to_plan_from(const core::ActionPlace& place) const {
-  core::ActionPlace first = place;
+  core::ActionPlace first = std::max(place, behind_served_goals());
   for (const FailedAction& action : failed_) {
     if (action.at) first = std::min(first, *action.at);
   }
@@ -252,6 +256,101 @@ void OrderTracker::find_failed_actions_of_base() {
       }
     }
   }
+}
+
+std::size_t OrderTracker::goals_before_failure() const {
+  std::size_t count = request_.robots[robot_].goal_count();
+  for (const FailedAction& action : failed_) {
+    if (action.goal) count = std::min(count, *action.goal);
+  }
+  return count;
+}
+
+/// By the actions of released nodes, which are done one after the other.
+FinishedGoals OrderTracker::find_served_goals() const {
+  constexpr std::size_t kWorkOfANode = 256;
+  FinishedGoals found = find_served_goals_of_base();
+  const OrderNames names(request_, robot_, *progress_.order_id);
+  for (std::size_t node = request_.bases[robot_] ? 1 : 0; found.are_all && node < route_.nodes.size();
+       ++node) {
+    if (work_.met_after(kWorkOfANode) || route_.sequence_id(node) > progress_.last_released) break;
+    if (route_.nodes[node].stops.empty()) continue;
+    std::size_t index = 0;
+    for (const NodeAction& action : actions_of(request_, robot_, route_.nodes[node])) {
+      const std::string id = names.action(route_.sequence_id(node), index++);
+      if (!action.goal) continue;
+      if (!state_->finished_actions.contains(id)) return {std::min(found.count, *action.goal), false};
+      found.count = *action.goal + 1;
+    }
+  }
+  return found;
+}
+
+namespace {
+
+/// Actions of a node of an order that serve goals.
+struct NodeServices {
+  core::Position at;
+  std::vector<std::string_view> ids = {};
+};
+
+/// The services of a base that its vehicle had not finished when the plan began.
+std::vector<NodeServices> services_left(const OrderBase& base) {
+  std::vector<NodeServices> services;
+  for (const JsonReader& node : base.released) {
+    const JsonReader position = node.find("nodePosition");
+    NodeServices of_node{{position.find("x").value().number().value_or(0.0),
+                          position.find("y").value().number().value_or(0.0)}};
+    bool are_finished = true;
+    for (const JsonReader action : node.find("actions").items()) {
+      const auto id = action.find("actionId").string();
+      if (!id || action.find("actionType").string() == "fleetplanWait") continue;
+      of_node.ids.push_back(*id);
+      are_finished = are_finished && base.finished.contains(*id);
+    }
+    if (!are_finished) services.push_back(std::move(of_node));
+  }
+  return services;
+}
+
+bool is_near(const core::Position& a, const core::Position& b) { return (a - b).norm() <= kSameNode; }
+
+}  // namespace
+
+/// What the base had left is committed: its services are those of the committed actions, in their order.
+FinishedGoals OrderTracker::find_served_goals_of_base() const {
+  FinishedGoals found;
+  const auto& base = request_.bases[robot_];
+  if (!base) return found;
+  const core::Actions actions = actions_.first(committed());
+  const std::vector<NodeServices> services = services_left(*base);
+  if (work_.met_after(actions.size() + services.size())) return {0, false};
+  auto action = actions.begin();
+  const auto is_done = [&](std::string_view id) { return state_->finished_actions.contains(id); };
+  for (std::size_t k = 0; k < services.size(); ++k) {
+    const core::Position& at = services[k].at;
+    const bool is_alone = k + 1 == services.size() || !is_near(services[k + 1].at, at);
+    const auto serves = [&](const core::Action& wait) {
+      return wait.goal && is_near(wait.from.position, at);
+    };
+    action = std::find_if(action, actions.end(), serves);
+    const bool are_done = std::all_of(services[k].ids.begin(), services[k].ids.end(), is_done);
+    if (action == actions.end() || !are_done) return {found.count, false};
+    // A node serves one goal, or all that are in its place.
+    const std::size_t first = *action->goal;
+    for (; action != actions.end() && is_near(action->to.position, at); ++action) {
+      if (!action->goal) continue;
+      if (!is_alone && *action->goal != first) break;
+      found.count = *action->goal + 1;
+    }
+  }
+  return found;
+}
+
+core::ActionPlace OrderTracker::behind_served_goals() const {
+  const auto is_served = [&](const core::Action& action) { return action.goal && *action.goal < served_; };
+  const auto last = std::find_if(actions_.rbegin(), actions_.rend(), is_served);
+  return {static_cast<std::size_t>(actions_.rend() - last), 0.0};
 }
 
 }  // namespace fleetplan::api

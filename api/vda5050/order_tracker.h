@@ -31,9 +31,16 @@ struct FailedAction {
   std::optional<core::ActionPlace> at = {};  // where the service of this goal begins
 };
 
+/// The goals, the first ones, whose actions are finished, as far as the actions of an order were looked at.
+struct FinishedGoals {
+  std::size_t count = 0;
+  bool are_all = true;  // no action that was looked at is not finished
+};
+
 /// Says what the report of one robot's vehicle means for its plan. A report counts if nothing in it is at
 /// fault, if it is of the order as it was sent, and if the vehicle knows where it is, on the map of its
-/// order, under the control of the fleet. Without such a report, all is as the request has it.
+/// order, under the control of the fleet. Without such a report, all is as the request has it, but for the
+/// goals that are served: what a vehicle says of its actions is true wherever it is, and opens no gates.
 class OrderTracker {
  public:
   /// `state`: null if it has not reported.
@@ -49,7 +56,10 @@ class OrderTracker {
   bool has_arrived() const;
   /// The place that it has reached; never before that of the request.
   core::ActionPlace place() const;
-  /// The place from which on a plan has to go on: not beyond a goal whose actions have failed.
+  /// The number of goals, the first ones, that are served.
+  std::size_t served() const { return served_; }
+  /// The place from which on a plan has to go on: behind the goals that are served, but not beyond one whose
+  /// actions have failed.
   core::ActionPlace place_to_plan_from(const core::ActionPlace& place) const;
   /// The place that the vehicle may go to, its actions there included; not before `place`.
   core::ActionPlace released(const core::ActionPlace& place) const;
@@ -68,6 +78,10 @@ class OrderTracker {
   bool is_forgotten() const;
   void find_failed_actions();
   void find_failed_actions_of_base();
+  std::size_t goals_before_failure() const;
+  FinishedGoals find_served_goals() const;
+  FinishedGoals find_served_goals_of_base() const;
+  core::ActionPlace behind_served_goals() const;
   std::size_t committed() const;
   std::optional<std::size_t> reached() const;
   core::ActionPlace arrival_at(std::size_t node) const;
@@ -85,6 +99,7 @@ class OrderTracker {
   core::Actions actions_;
   OrderEnd end_ = OrderEnd::none;
   std::vector<FailedAction> failed_;
+  std::size_t served_ = 0;
 };
 
 }  // namespace fleetplan::api

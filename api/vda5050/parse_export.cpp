@@ -30,6 +30,7 @@ class BaseReader {
     const bool has_node = !state.find("lastNodeId").string().value_or("").empty();
     if (base_.is_known && has_node) reached_ = state.find("lastNodeSequenceId").natural();
     base_.is_unsure = state && !reached_;
+    if (base_.is_known) read_finished(state.find("actionStates"));
   }
 
   /// Reads the order; none if it has a fault.
@@ -46,6 +47,14 @@ class BaseReader {
   }
 
  private:
+  void read_finished(const JsonReader& actions) {
+    // Bounded: the actions in the body.
+    for (const JsonReader action : actions.items()) {
+      const auto id = action.find("actionId").string();
+      if (id && action.find("actionStatus").string() == "FINISHED") base_.finished.insert(*id);
+    }
+  }
+
   void read_node(const JsonReader& node) {
     const auto sequence_id = node.require("sequenceId").natural(kGreatestId);
     const auto released = node.require("released").boolean();
@@ -182,9 +191,9 @@ bool is_timestamp(std::string_view text) {
 namespace {
 
 constexpr std::array<std::string_view, 2> kVersions{"2.1.0", "3.0.0"};  // in the order of VdaVersion
-constexpr std::array<std::string_view, 8> kProgressMembers{
-    "robot",  "order_id", "order_update_id", "last_released_sequence_id",
-    "action", "progress", "cancel_id",       "ended_order_id"};
+constexpr std::array<std::string_view, 9> kProgressMembers{
+    "robot",     "order_id",       "order_update_id", "last_released_sequence_id", "action", "progress",
+    "cancel_id", "ended_order_id", "served"};
 constexpr Range kReleaseAhead{0.1, kLongestTime, "seconds"};
 constexpr Range kDeviation{0.0, 1e6, "metres"};
 
@@ -261,6 +270,7 @@ class ProgressReader {
       seen_[*robot] = true;
       OrderProgress& of_robot = progress[*robot] = {};
       of_robot.at = read_point(json, *robot);
+      of_robot.served = json.find("served").natural(kGreatestIndex).value_or(0);
       read_order(json, *robot, of_robot);
     }
     return progress;

@@ -22,13 +22,15 @@ class Vehicle:
         self.nodes, self.actions, self.errors = [], {}, []  # nodes that are still to come, in the base
         self.base_end = None
         self.busy = []  # actions of the node where it stands: [id, seconds left]
-        self.stuck = False
-        self.refused, self.legs, self.served = [], [], 0
+        self.stuck = self.fails_next = False
+        self.mode = "AUTOMATIC"
+        self.refused, self.legs, self.served, self.topics = [], [], 0, []
 
     def take(self, message):
+        self.topics.append(message.topic)
         if message.topic == "instantActions":
             for action in message.body["actions"]:
-                self.nodes, self.busy = [], []
+                self.nodes, self.busy, self.stuck = [], [], False
                 self.base_end = None
                 self.actions[action["actionId"]] = "FINISHED"
             return
@@ -63,7 +65,10 @@ class Vehicle:
                 step = min(self.busy[0][1], end - now)
                 self.busy[0][1] -= step
                 now += step
-                if self.busy[0][1] <= 1e-9:
+                if self.busy[0][1] <= 1e-9 and self.fails_next:
+                    self.actions[self.busy.pop(0)[0]] = "FAILED"
+                    self.fails_next, self.stuck = False, True
+                elif self.busy[0][1] <= 1e-9:
                     self.actions[self.busy.pop(0)[0]] = "FINISHED"
                     self.served += 1
             elif self.nodes:
@@ -74,7 +79,7 @@ class Vehicle:
     def state(self):
         manufacturer, serial_number = self.address
         return {"headerId": 0, "manufacturer": manufacturer, "serialNumber": serial_number, "orderId": self.order_id, "orderUpdateId": self.update_id,
-                "lastNodeId": f"node-{self.last}", "lastNodeSequenceId": self.last, "driving": bool(self.nodes),
+                "lastNodeId": f"node-{self.last}", "lastNodeSequenceId": self.last, "driving": bool(self.nodes), "operatingMode": self.mode,
                 "agvPosition": {**self.pose, "mapId": "hall", "positionInitialized": True}, "errors": self.errors,
                 "actionStates": [{"actionId": name, "actionStatus": status} for name, status in self.actions.items()]}
 
@@ -201,6 +206,49 @@ class Loop(unittest.TestCase):
         self.assertGreater(len(day.arrived), before + 4)
         self.assertGreater(stopped.served, served, "it has got another order")
         self.assertEqual(day.met, ([], []))
+
+    def test_one_that_is_taken_over_gets_no_orders_until_it_is_back(self):
+        day = Day(self.client, 4, seed=3).run(10.0)
+        vehicle, *others = day.vehicles.values()
+        for mode in ("INTERVENED", "STARTUP", "SERVICE"):
+            with self.subTest(mode):
+                vehicle.mode, vehicle.stuck, vehicle.topics = mode, True, []
+                before = day.orders
+                day.run(15.0)
+                self.assertEqual(vehicle.topics, [])
+                self.assertGreater(day.orders, before, "others go on")
+                vehicle.mode, vehicle.stuck = "AUTOMATIC", False
+                day.run(15.0)
+                self.assertIn("order", vehicle.topics)
+        self.assertEqual((day.refused, day.met), ([], ([], [])))
+
+    def test_an_action_that_fails_is_cancelled_and_done_again(self):
+        day = Day(self.client, 4, seed=4)
+        vehicle, *_ = day.vehicles.values()
+        vehicle.fails_next = True
+        while vehicle.fails_next:
+            day.run(0.2)
+        self.assertTrue(vehicle.served == 0 and vehicle.stuck)
+        vehicle.topics = []
+        day.out = set(day.vehicles)  # nobody gets other goals
+        day.run(2.0)
+        self.assertEqual(vehicle.topics[:1], ["instantActions"])
+        day.run(60.0)
+        self.assertEqual((vehicle.served, day.failures, day.met), (1, [], ([], [])))
+
+    def test_messages_that_are_lost_are_sent_again(self):
+        day = Day(self.client, 4, seed=2)
+        name, vehicle = next(iter(day.vehicles.items()))
+        take, vehicle.take = vehicle.take, lambda message: None
+        day.run(1.0)
+        vehicle.take = take
+        day.run(30.0)
+        self.assertNotEqual(vehicle.order_id, "")
+        self.assertTrue(day.loop.cancel(name), "it has an order")  # and the message is lost
+        order = vehicle.order_id
+        day.run(20.0)
+        self.assertNotEqual(vehicle.order_id, order)
+        self.assertEqual((day.refused, day.met), ([], ([], [])))
 
 
 if __name__ == "__main__":

@@ -3,9 +3,12 @@
 stopped and pushed by hand, lose their place, and send messages that nobody can read, and with a server whose answers are
 now and then lost or wrong. Their time is simulated.
 
-Usage: vda.py [--binary FLEETPLAN | --url URL] [--minutes N] [--robots N] [--version 2.1.0 | 3.0.0] [--seed N]
+Usage: vda.py [--binary FLEETPLAN | --url URL] [--minutes N | --seconds N] [--robots N] [--version 2.1.0 | 3.0.0]
+              [--seed N]
 
-Prints what it did. The exit status is 1 unless each mission was served exactly once in the end, the ways that are released
+--minutes are those of this machine, --seconds those of the vehicles, for each version: the same on every machine.
+
+Prints what it did, with a digest: two runs in which the same happened have the same. The exit status is 1 unless each mission was served exactly once in the end, the ways that are released
 to vehicles never came too near to each other, nobody was met but by a vehicle that was pushed, no vehicle stood for long
 without a reason, and nothing but FleetplanError was raised.
 """
@@ -13,6 +16,7 @@ without a reason, and nothing but FleetplanError was raised.
 import argparse
 import collections
 import copy
+import hashlib
 import itertools
 import json
 import logging
@@ -99,6 +103,7 @@ class Soak:
         self.displaced = set()  # vehicles that were pushed, until they have another order
         self.fine_since = dict.fromkeys(self.vehicles, 0.0)
         self.longest_stand, self.told = 0.0, collections.Counter()
+        self.digest = hashlib.sha256()
         self.client = Flaky(client, self.dice, self.counts)
         self.loop = VdaLoop(self.client, self.request, manufacturer=MAKE, version=version, map_id="hall",
                             clock=lambda: self.now, background=False,
@@ -121,16 +126,20 @@ class Soak:
         except FleetplanError as error:
             self.fail(f"the loop has raised {error}")
             messages = []
-        for message in messages:
-            self.counts["orders" if message.topic == "order" else "orders cancelled"] += 1
-            self.vehicles[message.serial_number].inbox.append(message)
-            self.check_released(message)
+        self.send(messages)
         self.give_missions(disturbs)
         for vehicle in self.vehicles.values():
             vehicle.legs = []
             vehicle.drive(self.now)
+            self.digest.update(repr((vehicle.pose, vehicle.last, vehicle.update_id, vehicle.missions)).encode())
         self.check_motion()
         self.now += STEP_S
+
+    def send(self, messages):
+        for message in messages:
+            self.counts["orders" if message.topic == "order" else "orders cancelled"] += 1
+            self.vehicles[message.serial_number].inbox.append(message)
+            self.check_released(message)
 
     def report(self, vehicle, payload):
         try:
@@ -170,7 +179,7 @@ class Soak:
             elif self.dice.random() < STEP_S / EVERY_S:
                 self.fine_since[vehicle.name] = self.now + SETTLES_S
                 kind = self.dice.choice([self.rubbish, self.rubbish, self.refuse, self.fail_action, self.restart, self.push,
-                                         self.push, self.stop, self.pause, self.lose_place, self.change_map, self.break_down])
+                                         self.push, self.cancel, self.stop, self.pause, self.lose_place, self.change_map, self.break_down])
                 kind(vehicle)
 
     def end_disturbances(self):
@@ -199,9 +208,13 @@ class Soak:
         self.counts["actions to fail"] += 1
         vehicle.fails_next = True
 
+    def cancel(self, vehicle):
+        """Somebody cancels the order."""
+        self.send(self.loop.cancel(vehicle.name, "somebody wants it"))
+
     def has_told_all(self, vehicle):
         """What is not told before it restarts nobody can know."""
-        return self.now - vehicle.finished_at > 3.0
+        return self.now - vehicle.finished_at > 1.0
 
     def restart(self, vehicle):
         if self.has_told_all(vehicle):
@@ -209,12 +222,10 @@ class Soak:
             vehicle.forget()
 
     def push(self, vehicle):
-        if not self.has_told_all(vehicle):
-            return
         self.until(vehicle, "driven by hand", lambda: setattr(vehicle, "mode", "AUTOMATIC"))
         vehicle.mode = "MANUAL"
         vehicle.drop()
-        if self.dice.random() < 0.3:
+        if self.dice.random() < 0.3 and self.has_told_all(vehicle):
             vehicle.forget()
         angle, far = self.dice.uniform(-math.pi, math.pi), self.dice.uniform(0.1, PUSHED_M)
         x, y = vehicle.pose["x"] + far * math.cos(angle), vehicle.pose["y"] + far * math.sin(angle)
@@ -317,6 +328,15 @@ class Soak:
                 if times > 1:
                     self.fail(f"the mission {mission} was served {times} times")
 
+    def run(self, is_over):
+        """Disturbs the vehicles until it is over, and finishes."""
+        try:
+            while not is_over(self.now) and len(self.failures) < MOST_FAILURES:
+                self.step(True)
+            self.finish()
+        except Exception:  # to tell when and how
+            self.fail(f"the loop has ended by\n{traceback.format_exc()}")
+
     def print_report(self):
         reasons = collections.Counter(why for vehicle in self.vehicles.values() for why, _ in vehicle.refused)
         print(f"{self.now:.0f} s of {len(self.vehicles)} vehicles: "
@@ -324,6 +344,7 @@ class Soak:
               f"{self.loop.rounds} rounds, at most {max(0.0, self.longest_stand):.0f} s of standing without a reason")
         for title, counts in (("done", self.counts), ("told", self.told), ("orders refused", reasons)):
             print(f"{title}: " + ", ".join(f"{count} {what}" for what, count in sorted(counts.items())))
+        print(f"digest: {self.digest.hexdigest()[:16]}", flush=True)
 
 
 def apart(way, other):
@@ -358,7 +379,9 @@ def main():
     parser = argparse.ArgumentParser(description="Runs the loop for vehicles of VDA 5050 with vehicles that disturb it.")
     parser.add_argument("--binary", help="the server to start")
     parser.add_argument("--url", help="a server that is already running")
-    parser.add_argument("--minutes", type=float, default=60.0)
+    length = parser.add_mutually_exclusive_group()
+    length.add_argument("--minutes", type=float, default=60.0, help="of this machine, for all")
+    length.add_argument("--seconds", type=float, help="of the vehicles, for each version")
     parser.add_argument("--robots", type=int, default=10)
     parser.add_argument("--version", choices=("2.1.0", "3.0.0"), help="by default both, one after the other")
     parser.add_argument("--seed", type=int, default=int(time.time()))
@@ -370,17 +393,12 @@ def main():
     print(f"seed {arguments.seed}, {server.url}", flush=True)
     failures = []
     versions = [arguments.version] if arguments.version else ["2.1.0", "3.0.0"]
-    turns = max(1, round(arguments.minutes / TURN_MIN / len(versions))) * versions
+    turns = versions if arguments.seconds else max(1, round(arguments.minutes / TURN_MIN / len(versions))) * versions
     for number, version in enumerate(turns):
         client = Client(server.url)
         soak = Soak(client, arguments.robots, version, arguments.seed + number)
         end = time.monotonic() + 60.0 * arguments.minutes / len(turns)
-        try:
-            while time.monotonic() < end and len(soak.failures) < MOST_FAILURES:
-                soak.step(True)
-            soak.finish()
-        except Exception:  # to tell when and how
-            soak.fail(f"the loop has ended by\n{traceback.format_exc()}")
+        soak.run(lambda now, end=end: now >= arguments.seconds if arguments.seconds else time.monotonic() >= end)
         print(f"VDA 5050 {version}, seed {arguments.seed + number}, ", end="")
         soak.print_report()
         failures += soak.failures[:MOST_FAILURES]

@@ -789,6 +789,7 @@ class OrderProgress(TypedDict):
     progress: float
     cancel_id: NotRequired[str]
     ended_order_id: NotRequired[str]
+    served: NotRequired[int]
 
 
 class OrderBase(TypedDict):

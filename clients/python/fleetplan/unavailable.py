@@ -1,10 +1,13 @@
-"""What requests say of vehicles of VDA 5050 that have no order, or are not available."""
+"""What requests say of vehicles of VDA 5050 that have no order, are not available, or will have served all goals."""
 
+import math
 from collections.abc import Collection, Iterable, Mapping
 from typing import Literal
 
 from fleetplan.course import goals_of
-from fleetplan.types import Goal, PlanRequest, RobotState, VehiclePose
+from fleetplan.types import Action, Goal, PlanRequest, Pose, RobotState, VehiclePose
+
+_SAME = 1e-6  # metres, radians and seconds: rounding
 
 
 def put_aside(request: PlanRequest, out: Collection[str], waiting: Mapping[str, list[Goal]],
@@ -17,7 +20,7 @@ def put_aside(request: PlanRequest, out: Collection[str], waiting: Mapping[str, 
         name, goals = robot["id"], goals_of(robot)
         if name in out:
             kept = 1 + max((action["goal"] for action in robot.get("committed", []) if "goal" in action), default=-1)
-            aside[name] = [*goals[kept:], *waiting.get(name, [])]
+            aside[name] = [*_without_places(goals[kept:], robot.get("committed", [])), *waiting.get(name, [])]
             goals, robot["idle"] = goals[:kept], "stay"
             robot.pop("previous", None)
         elif name in waiting:
@@ -35,18 +38,50 @@ def put_aside(request: PlanRequest, out: Collection[str], waiting: Mapping[str, 
     return aside
 
 
+def _without_places(goals: list[Goal], committed: list[Action]) -> list[Goal]:
+    """Without the first ones that ask for nothing but a rest in a pose in which the robot is committed to rest."""
+    rests = [action["to"] for action in committed if action["type"] == "wait"] + [action["to"] for action in committed[-1:]]
+    passed = 0
+    while passed < len(goals) and any(_is_place(goals[passed], pose) for pose in rests):
+        passed += 1
+    return goals[passed:]
+
+
+def _is_place(goal: Goal, pose: Pose) -> bool:
+    if goal.get("service") or "x" not in goal or "y" not in goal:
+        return False
+    turn = math.remainder(goal.get("theta", pose["theta"]) - pose["theta"], math.tau)
+    return max(abs(goal["x"] - pose["x"]), abs(goal["y"] - pose["y"]), abs(turn)) <= _SAME
+
+
+def serve_once(request: PlanRequest, out: Collection[str]) -> None:
+    """A plan ends with the service at the last goal: a robot that makes way after it comes back and is served again. One
+    that is committed to the whole service, which nobody can take back, gets its place as another goal behind it: that of
+    the service, or the end of its commitment if it is not available (`out`)."""
+    for robot in request["robots"]:
+        goals, committed = goals_of(robot), robot.get("committed", [])
+        services = [action for action in committed if goals and action.get("goal") == len(goals) - 1]
+        seconds = sum(action["t_end"] - action["t_start"] for action in services)
+        if services and seconds >= goals[-1].get("service", 0.0) - _SAME:
+            place = (committed if robot["id"] in out else services)[-1]["to"]
+            robot["goals"] = [*goals, {"x": place["x"], "y": place["y"], "theta": place["theta"]}]
+            robot.pop("goal", None)
+
+
 def start_where_measured(request: PlanRequest, measured: Iterable[RobotState | VehiclePose], base: Collection[str]) -> None:
-    """A robot that has no order begins exactly where it is, not where a plan has it: vehicles refuse orders that begin
-    elsewhere. `base`: robots that have orders."""
+    """A robot that has no order begins, and stands if it is committed to that, exactly where it is, not where a plan has
+    it: vehicles refuse orders that begin elsewhere. `base`: robots that have orders."""
     poses = {entry["robot"]: entry for entry in measured}
     for robot in request["robots"]:
-        pose = poses.get(robot["id"])
-        if robot["id"] in base or pose is None or robot.get("committed"):
+        pose, committed = poses.get(robot["id"]), robot.get("committed", [])
+        if robot["id"] in base or pose is None or any("goal" in action or action["from"] != action["to"] for action in committed):
             continue
         if "x" in pose and "y" in pose and "theta" in pose:
             start = robot["start"]
             if (start["x"], start["y"], start.get("theta")) != (pose["x"], pose["y"], pose["theta"]):
                 robot["start"] = {"x": pose["x"], "y": pose["y"], "theta": pose["theta"]}
+                for action in committed:
+                    action["from"] = action["to"] = {"x": pose["x"], "y": pose["y"], "theta": pose["theta"]}
                 robot.pop("previous", None)
 
 

@@ -23,7 +23,7 @@ from fleetplan.fleet_loop import LOOP_OPTIONS
 from fleetplan.planning_loop import PlanningLoop, unforeseen
 from fleetplan.types import (AdvanceAnswer, Goal, NewGoals, OrderBase, OrderProgress, PlanAnswer, PlanOptions, PlanRequest,
                              RobotState, Vda5050Answer, Vda5050States, VdaMessage, VehicleReport)
-from fleetplan.unavailable import put_aside, start_where_measured, unmeasured
+from fleetplan.unavailable import put_aside, serve_once, start_where_measured, unmeasured
 from fleetplan.vehicle_states import read_state, sender_of
 
 # Those of a FleetLoop, but vehicles follow edges exactly, and may stand as near to each other as they like. For others,
@@ -33,6 +33,8 @@ VDA_OPTIONS["inflation"] = VDA_OPTIONS["execution_margin"] = 0.0
 
 # Why a vehicle takes no orders, of the reasons that the service names. Others pass by themselves, or with another order.
 _LASTING = frozenset({"not_reported", "operating_mode", "emergency_stop", "paused", "not_localized", "other_map", "error"})
+
+_ARRIVES_S = 10.0  # a message that its vehicle has not taken by then was lost
 
 _HEADER = ("headerId", "timestamp", "version", "manufacturer", "serialNumber")
 
@@ -100,8 +102,9 @@ class VdaLoop(PlanningLoop):
         self._states: dict[str, VdaMessage] = {}  # by robot, the last ones
         self._imported: dict[str, VdaMessage] = {}  # by robot, the last ones that the service has read
         self._lock = threading.Lock()  # of the states
-        self._orders: dict[str, VdaMessage] = {}  # the last messages, by robot
+        self._orders: dict[str, VdaMessage] = {}  # the last messages, with the nodes before them, by robot
         self._cancels: dict[str, str] = {}  # ids of the actions that cancel orders, by robot
+        self._sent: dict[str, tuple[float, Message]] = {}  # the last messages, and when, by robot
         self._plan: _Plan | None = None
         self._reports: dict[str, VehicleReport] = {}
         self._round: Future[_Plan] | None = None
@@ -142,6 +145,7 @@ class VdaLoop(PlanningLoop):
         if self._round is None:
             messages += self._release()
             messages += self._cancel_failed()
+            messages += self._lost(now)
             if now >= self._due:
                 self._due = now + self._period
                 self._begin_round(now)
@@ -158,7 +162,7 @@ class VdaLoop(PlanningLoop):
         body = {"actions": [{"actionType": "cancelOrder", "actionId": action_id, "blockingType": "HARD",
                              "actionParameters": parameters}]}
         self._begin_cancel(robot, action_id, reason)
-        return [Message("instantActions", *self._vehicles[robot], body)]
+        return [self._message(robot, "instantActions", body)]
 
     @property
     def idle(self) -> list[str]:
@@ -265,6 +269,31 @@ class VdaLoop(PlanningLoop):
         what is left, as soon as they can."""
         return [message for robot in self.failed for message in self.cancel(robot, "it has failed")]
 
+    def _message(self, robot: str, topic: Literal["order", "instantActions"], body: VdaMessage) -> Message:
+        message = Message(topic, *self._vehicles[robot], _headless(body))
+        self._sent[robot] = self._clock(), message
+        return message
+
+    def _lost(self, now: float) -> list[Message]:
+        """Messages that vehicles have not taken: they may have been lost, or the vehicle has forgotten them before it has
+        told so. They are sent again; a vehicle that has one nevertheless ignores the second."""
+        messages = []
+        for robot, (since, message) in self._sent.items():
+            is_waiting = robot in self._orders and now - since >= _ARRIVES_S
+            if is_waiting and not self._has_taken(robot):
+                self._sent[robot] = now, message
+                messages.append(message)
+        return messages
+
+    def _has_taken(self, robot: str) -> bool:
+        """Its last message; one that is not available gets no orders."""
+        if robot not in self._cancels:
+            report = self._reports.get(robot)
+            return report is None or report["accepted"] or robot in self.unavailable
+        state = self._imported.get(robot, {})
+        actions = [*state.get("actionStates", []), *state.get("instantActionStates", [])]
+        return any(action["actionId"] == self._cancels[robot] for action in actions)
+
     def _end_orders(self, plan: _Plan) -> None:
         """Vehicles that have done all get new orders with the next plan: no order goes on for a whole day. One that
         still knows a horizon waits for its order to be continued."""
@@ -312,10 +341,22 @@ class VdaLoop(PlanningLoop):
                 robot, {"robot": robot, "action": first["action"], "progress": first["progress"]})
             known["order_id"], known["order_update_id"] = order["orderId"], order["orderUpdateId"]
             known["last_released_sequence_id"] = entry["last_released_sequence_id"]
-            self._orders[robot] = order
+            self._orders[robot] = self._with_nodes_before(robot, order)
             self.cancelled.pop(robot, None)
-            messages.append(Message("order", *self._vehicles[robot], _headless(order)))
+            messages.append(self._message(robot, "order", order))
         return messages
+
+    def _with_nodes_before(self, robot: str, order: VdaMessage) -> VdaMessage:
+        """An update with the released nodes of the messages before it that the vehicle has not left, as far as is known:
+        it may still fail to do an action there."""
+        before, state = self._orders.get(robot), self._imported.get(robot, {})
+        if before is None or before["orderId"] != order["orderId"]:
+            return order
+        is_known = state.get("orderId") == order["orderId"] and state.get("lastNodeId")
+        reached = state.get("lastNodeSequenceId", 0) if is_known else 0
+        first = order["nodes"][0]["sequenceId"]
+        nodes = [node for node in before["nodes"] if node["released"] and reached <= node["sequenceId"] < first]
+        return {**order, "nodes": [*nodes, *order["nodes"]]}
 
     def _begin_cancel(self, robot: str, action_id: str, reason: str) -> None:
         self._cancels[robot] = action_id
@@ -374,6 +415,7 @@ class VdaLoop(PlanningLoop):
     def _planned(self, request: PlanRequest, base: Sequence[OrderBase], out: Collection[str],
                  waiting: Mapping[str, list[Goal]], now: float) -> _Plan:
         aside = put_aside(request, out, waiting, self._idle)
+        serve_once(request, out)
         answer = self._make_plan(request)
         tight = frozenset(robot for pair in answer.get("tight") or [] for robot in pair["robots"])
         return _Plan(request, answer, now, _timestamp(), base, {}, tight, aside)
@@ -418,7 +460,7 @@ class VdaLoop(PlanningLoop):
             robot, message = entry["robot"], entry["instant_actions"]
             if robot not in self._cancels:
                 self._begin_cancel(robot, message["actions"][0]["actionId"], entry["detail"])
-                messages.append(Message("instantActions", *self._vehicles[robot], _headless(message)))
+                messages.append(self._message(robot, "instantActions", message))
         self._goals = {**self._given, **self._goals}
         self._given = {}
         return messages

@@ -287,6 +287,63 @@ TEST(Action, ThatHasFailedIsPlannedAgainWithoutTheOrder) {
   EXPECT_EQ(hall.request["robots"][0]["goals"].size(), goals);
 }
 
+/// States that open no gates.
+const std::vector<const char*> kUncounted{R"({"operatingMode": "MANUAL"})",
+                                          R"({"agvPosition": {"positionInitialized": false}})",
+                                          R"({"agvPosition": {"mapId": "attic"}})"};
+
+TEST(Action, ThatIsFinishedIsServedWhereverItsVehicleIs) {
+  for (const char* patch : kUncounted) {
+    SCOPED_TRACE(patch);
+    Picking hall;
+    hall.messages[0].merge_patch(Json::parse(patch));
+    const Json before = of_robot(hall.with_status("RUNNING")["progress"], "a");
+    EXPECT_FALSE(before.contains("served"));
+    Json after = hall.with_status("FINISHED");
+    EXPECT_EQ(after["states"][0]["action"], 1) << "behind the service";
+    EXPECT_EQ(after["states"][0]["progress"], 1.0);
+    Json progress = of_robot(after["progress"], "a");
+    EXPECT_EQ(progress["served"], 1);
+    progress.erase("served");
+    EXPECT_EQ(progress, before) << "it opens no gates";
+    // The vehicle is restarted, and knows nothing of it any more.
+    hall.body["progress"] = after["progress"];
+    hall.body["base"] = Json::array({{{"robot", "a"}, {"order", hall.order}, {"state", hall.messages[0]}}});
+    hall.messages[0]["orderId"] = "";
+    hall.messages[0]["nodeStates"] = hall.messages[0]["actionStates"] = Json::array();
+    after = hall.imported(hall.messages);
+    EXPECT_EQ(of_robot(after["progress"], "a")["served"], 1);
+    EXPECT_EQ(after["states"][0]["action"], 1);
+  }
+}
+
+TEST(Action, ThatIsFinishedAsItsOrderEndsIsServed) {
+  Picking hall;
+  hall.body["progress"][0]["cancel_id"] = "stop";
+  hall.messages[0]["instantActionStates"] = {{{"actionId", "stop"}, {"actionStatus", "FINISHED"}}};
+  EXPECT_EQ(hall.with_status("FAILED")["states"][0]["action"], 0);
+  const Json answer = hall.with_status("FINISHED");
+  EXPECT_EQ(of_robot(answer["progress"], "a")["ended_order_id"], hall.order["orderId"]);
+  EXPECT_EQ(answer["states"][0]["action"], 1);
+  hall.advance(9.0, answer["states"]);
+  EXPECT_EQ(hall.request["robots"][0]["goals"].size(), 1U);
+}
+
+TEST(Action, OfABaseThatIsFinishedIsServed) {
+  Picking hall;
+  hall.advance(9.0, hall.with_status("RUNNING")["states"]);
+  ASSERT_EQ(hall.request["robots"][0]["goals"].size(), 2U);
+  hall.body["progress"] = Json::array();
+  hall.body["base"] = Json::array({{{"robot", "a"}, {"order", hall.order}, {"state", hall.messages[0]}}});
+  hall.messages[0]["agvPosition"]["mapId"] = "attic";
+  EXPECT_FALSE(of_robot(hall.with_status("RUNNING")["progress"], "a").contains("served"));
+  EXPECT_FALSE(of_robot(hall.with_status("FAILED")["progress"], "a").contains("served"));
+  const Json answer = hall.with_status("FINISHED");
+  EXPECT_EQ(of_robot(answer["progress"], "a")["served"], 1);
+  hall.advance(1.0, answer["states"]);
+  EXPECT_EQ(hall.request["robots"][0]["goals"].size(), 1U);
+}
+
 TEST(Cancellation, EndsWithAnOrderThatIsNotThere) {
   Reporting hall;
   hall.body["progress"][0]["cancel_id"] = "stop";
