@@ -180,7 +180,7 @@ Circumstances make_acceptable(AdvanceRequest& request, std::vector<core::Robot>&
   if (!any_observed) {
     found.unavoidable = collisions_of_commitments(robots, motions.braking, work);
     // Robots that could not stop in time overlap later on, whether they are observed then or not.
-    const bool any_overlap = std::any_of(found.unavoidable.begin(), found.unavoidable.end(),
+    const bool any_overlap = std::any_of(found.unavoidable.listed.begin(), found.unavoidable.listed.end(),
                                          [](const Collision& collision) { return collision.t == 0.0; });
     if (!any_overlap) return found;
   }

@@ -75,8 +75,10 @@ GoalsLeft goals_left(const core::Robot& robot, const Execution& execution, doubl
   const core::Itinerary itinerary = core::itinerary_of(past);
   GoalsLeft left;
   // Nobody has made room for a robot without a plan: it has been served, but its load is still to come.
-  const auto load = execution.planned ? std::nullopt : first_new_radius(robot, visited_by_plan, itinerary.first_goal);
-  left.visited = std::min(load.value_or(itinerary.first_goal), execution.first_unserved.value_or(robot.goal_count()));
+  const auto load =
+      execution.planned ? std::nullopt : first_new_radius(robot, visited_by_plan, itinerary.first_goal);
+  left.visited =
+      std::min(load.value_or(itinerary.first_goal), execution.first_unserved.value_or(robot.goal_count()));
   for (std::size_t k = left.visited; k < robot.goal_count(); ++k) {
     core::Goal goal = robot.goal_at(k);
     goal.not_before = std::max(0.0, goal.not_before - at);
@@ -230,8 +232,8 @@ Remainder remainder_of(const core::Robot& robot, const Execution& execution, con
   return rest;
 }
 
-/// Until when it has served goals, on the clock of its actions. Who is still on the way to where an action ends
-/// has served nothing there, however near it is, and whatever it reports.
+/// Until when it has served goals, on the clock of its actions. Who is still on the way to where an action
+/// ends has served nothing there, however near it is, and whatever it reports.
 double served_until(const core::Robot& robot, const Execution& execution, const Located& located,
                     const Moment& moment) {
   const auto [index, t] = located.progress;
@@ -273,16 +275,16 @@ bool have_profiles(const Actions& actions, std::size_t first, const core::Robot&
   return std::all_of(begin, actions.end(), has_its_own);
 }
 
-/// Whether POST /v1/plan accepts previous actions of this robot, as far as their times, profiles and loads go.
-/// Only committed motion may be measured.
+/// Whether POST /v1/plan accepts previous actions of this robot, as far as their times, profiles and loads
+/// go. Only committed motion may be measured.
 bool is_accepted(const Actions& previous, const core::Robot& robot) {
   const double end = previous.empty() ? 0.0 : previous.back().t_end;
   return end <= kLongestTime && have_profiles(previous, robot.committed.size(), robot) &&
          core::count_of_executable(robot, previous) == previous.size();
 }
 
-/// Ends a commitment where the robot takes a load with which it cannot go on like that: one that is held, or gets
-/// other goals, may serve a goal where its plan did not.
+/// Ends a commitment where the robot takes a load with which it cannot go on like that: one that is held, or
+/// gets other goals, may serve a goal where its plan did not.
 void end_before_unfit_load(core::Robot& robot) {
   const std::size_t count = core::count_of_executable(robot, robot.committed);
   if (count > 0 || robot.committed_speed() == 0.0) robot.committed.resize(count);

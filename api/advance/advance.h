@@ -109,13 +109,17 @@ struct Collision {
   double t = 0.0;  // seconds: 0 if they overlap already, otherwise when they begin to
 };
 
+/// Pairs of robots that collide, of which the first are listed.
+struct Collisions {
+  std::vector<Collision> listed = {};
+  std::size_t total = 0;
+};
+
 /// Returns the pairs of robots that collide if all execute nothing but their commitments, and then stand:
 /// pairs that overlap already, and pairs of which one robot cannot stop in time. `braking`: by robot, see
-/// braking_of; a robot executes that, too, if its commitment ends before. Of many pairs, only the first are
-/// returned. Ends early when `work` is met.
-std::vector<Collision> collisions_of_commitments(const std::vector<core::Robot>& robots,
-                                                 const std::vector<std::vector<core::Action>>& braking,
-                                                 core::Work& work);
+/// braking_of; a robot executes that, too, if its commitment ends before. Ends early when `work` is met.
+Collisions collisions_of_commitments(const std::vector<core::Robot>& robots,
+                                     const std::vector<std::vector<core::Action>>& braking, core::Work& work);
 
 /// What commitments are judged by, on the clock of the moment.
 struct Motions {

@@ -500,7 +500,7 @@ void write_unavoidable(JsonWriter& json, const AdvanceRequest& request, const Ci
                        core::Work& work) {
   constexpr std::size_t kWorkOfAPair = 64;  // bytes of text, without names
   json.key("unavoidable").begin_array();
-  for (const auto& [first, second, t] : circumstances.unavoidable) {
+  for (const auto& [first, second, t] : circumstances.unavoidable.listed) {
     const std::string& a = request.robots[first].id;
     const std::string& b = request.robots[second].id;
     if (work.met_after(kWorkOfAPair + a.size() + b.size())) break;
@@ -508,6 +508,7 @@ void write_unavoidable(JsonWriter& json, const AdvanceRequest& request, const Ci
     json.member("t", t).end_object();
   }
   json.end_array();
+  json.member("unavoidable_total", circumstances.unavoidable.total);
 }
 
 /// Where each robot is in the actions that it was given, and in those of the new request: at their beginning,
@@ -546,7 +547,7 @@ std::string write_advanced(const AdvanceRequest& request, const std::vector<core
   }
   if (needs_options) write_options(json, request.request.value().find("options"), circumstances);
   write_progress(json, request, work);
-  if (!circumstances.unavoidable.empty()) write_unavoidable(json, request, circumstances, work);
+  if (!circumstances.unavoidable.listed.empty()) write_unavoidable(json, request, circumstances, work);
   json.end_object();
   return json.take();
 }

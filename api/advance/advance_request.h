@@ -48,7 +48,7 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
 struct Circumstances {
   std::optional<double> start_overlap = {};  // metres that starts may overlap; none: as the request allows
   bool some_in_walls = false;                // robots whose centres are, which have to be reported as invalid
-  std::vector<Collision> unavoidable = {};   // the first ones
+  Collisions unavoidable = {};
 };
 
 /// Ends committed actions of robots that were measured, or have reported where they are, before they meet
@@ -60,8 +60,8 @@ Circumstances make_acceptable(AdvanceRequest& request, std::vector<core::Robot>&
 
 /// Returns the request of the moment: that of the body with the starts, goals, committed and previous actions
 /// of these robots, what is left of its obstacles, and the options that it needs where they are; everything
-/// else is copied. Then `progress`, and `unavoidable` if robots overlap or cannot stop in time. The text ends
-/// anywhere once the work is met.
+/// else is copied. Then `progress`, and `unavoidable` with `unavoidable_total` if robots overlap or cannot
+/// stop in time. The text ends anywhere once the work is met.
 std::string write_advanced(const AdvanceRequest& request, const std::vector<core::Robot>& robots,
                            const Circumstances& circumstances, core::Work& work);
 

@@ -60,12 +60,15 @@ class CollisionSearch {
 
   void add(Stopping robot) { stopping_.push_back(std::move(robot)); }
 
-  std::vector<Collision> run() {
-    std::vector<Collision> found;
+  Collisions run() {
+    Collisions found;
     for (std::size_t i = 0; i < stopping_.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
-        if (work_.met_after(1) || found.size() >= kMostPairs) return found;
-        if (const auto t = begin_of_overlap(j, i)) found.push_back({j, i, *t});
+        if (work_.met_after(1)) return found;
+        const auto t = begin_of_overlap(j, i);
+        if (!t) continue;
+        if (found.listed.size() < kMostPairs) found.listed.push_back({j, i, *t});
+        ++found.total;
       }
     }
     return found;
@@ -107,9 +110,9 @@ class CollisionSearch {
 
 }  // namespace
 
-std::vector<Collision> collisions_of_commitments(const std::vector<core::Robot>& robots,
-                                                 const std::vector<std::vector<core::Action>>& braking,
-                                                 core::Work& work) {
+Collisions collisions_of_commitments(const std::vector<core::Robot>& robots,
+                                     const std::vector<std::vector<core::Action>>& braking,
+                                     core::Work& work) {
   CollisionSearch search(robots, work);
   for (std::size_t k = 0; k < robots.size(); ++k) {
     if (work.met_after(kWorkOfAPiece * (1 + robots[k].committed.size()))) return {};

@@ -77,13 +77,13 @@ core::Disturbance parse_disturbance(const JsonReader& member) {
 
 // The members of a request to simulate, then those that answers of /v1/plan, /v1/advance and /v1/assign add,
 // which are ignored.
-constexpr std::array<std::string_view, 35> kSimulateRequestMembers{
+constexpr std::array<std::string_view, 36> kSimulateRequestMembers{
     "map",           "robot_defaults", "robots",    "obstacles",       "zones",       "options",
     "plans",         "policy",         "max_delay", "disturbance",     "runs",        "seed",
     "trace",         "dependencies",   "tight",     "unavoidable",     "status",      "request_id",
     "unplanned",     "flowtime",       "makespan",  "objective_value", "lower_bound", "verified",
     "min_clearance", "deterministic",  "search",    "timings_ms",      "warnings",    "lattice_spacing",
-    "metadata",      "estimated",      "progress",  "assigned",        "unassigned"};
+    "metadata",      "estimated",      "progress",  "assigned",        "unassigned",  "unavoidable_total"};
 
 // In the order of core::ExecutionPolicy.
 constexpr std::array<std::string_view, 4> kPolicies{"open_loop", "absorb_waits", "dependencies",

@@ -53,12 +53,13 @@ void tell_choices(PlanRequest& request);
 
 /// The members of a request of POST /v1/plan. Those from `progress` on are of the answers of other endpoints,
 /// for who executes the plans, and are ignored.
-inline constexpr std::array<std::string_view, 11> kPlanRequestMembers{
-    "map",      "robot_defaults", "robots",      "obstacles", "zones",     "options",
-    "metadata", "progress",       "unavoidable", "assigned",  "unassigned"};
+inline constexpr std::array<std::string_view, 12> kPlanRequestMembers{
+    "map",      "robot_defaults", "robots",      "obstacles",         "zones",    "options",
+    "metadata", "progress",       "unavoidable", "unavoidable_total", "assigned", "unassigned"};
 
 inline bool is_of_an_answer(std::string_view member) {
-  return member == "progress" || member == "unavoidable" || member == "assigned" || member == "unassigned";
+  return member == "progress" || member == "unavoidable" || member == "unavoidable_total" ||
+         member == "assigned" || member == "unassigned";
 }
 
 /// Reads a request of POST /v1/plan, which may be a part of a body. Returns none only when it reported

@@ -61,8 +61,8 @@ class LoadOnTheWay {
 /// Returns the load with which a robot executes one of its actions, which are contiguous from t = 0 in its
 /// start.
 Load load_during(const Robot& robot, std::span<const Action> actions, std::size_t index);
-/// Returns how many of these actions a robot can execute with the loads that it has then: up to the first that is
-/// too fast for a load that it has taken on the way, before which it stands; all if there is none.
+/// Returns how many of these actions a robot can execute with the loads that it has then: up to the first
+/// that is too fast for a load that it has taken on the way, before which it stands; all if there is none.
 std::size_t count_of_executable(const Robot& robot, std::span<const Action> actions);
 /// Makes the load the one that the robot has.
 void set_load(Robot& robot, const Load& load);

@@ -56,7 +56,8 @@ void settle_by_actions(Robot& robot, std::vector<OpenGoal>& open, std::span<cons
 
 void choose_unserved(Robot& robot, std::vector<OpenGoal>& open, std::span<const Action> actions,
                      const StopCondition& stop) {
-  const auto goal = std::find_if(open.begin(), open.end(), [](const OpenGoal& one) { return !one.is_settled; });
+  const auto goal =
+      std::find_if(open.begin(), open.end(), [](const OpenGoal& one) { return !one.is_settled; });
   if (goal == open.end()) return;
   const std::size_t before = goal->chosen;
   bool any_serves = false;

@@ -48,8 +48,8 @@ void settle_by_actions(Robot& robot, std::vector<OpenGoal>& open, std::span<cons
                        bool also_last, const StopCondition& stop);
 
 /// Chooses a pose at which `actions` do not serve the first goal that is not settled, which whoever made them
-/// says: they may turn in one pose on their way to another. The one where they end is preferred. Ends early if
-/// `stop` is met.
+/// says: they may turn in one pose on their way to another. The one where they end is preferred. Ends early
+/// if `stop` is met.
 void choose_unserved(Robot& robot, std::vector<OpenGoal>& open, std::span<const Action> actions,
                      const StopCondition& stop);
 

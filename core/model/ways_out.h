@@ -84,8 +84,8 @@ struct Leaving {
 
 /// Finds what zones that may be left change for the robots, by robot; an empty list if there are no such
 /// zones. Takes the goals that are put off away from the robots: one that is inside and has no goals left
-/// gets the end of its way out as its last goal; one outside yields, or has no goal if it never had served any.
-/// `inflation`: metres. Ends early when the stop is met; then the result must not be used.
+/// gets the end of its way out as its last goal; one outside yields, or has no goal if it never had served
+/// any. `inflation`: metres. Ends early when the stop is met; then the result must not be used.
 std::vector<Leaving> find_ways_out(const ZoneMaps& maps, const std::vector<Zone>& zones, double inflation,
                                    std::vector<Robot>& robots, const StopCondition& stop);
 

@@ -18,8 +18,9 @@ SCHEMAS = DOCUMENT["components"]["schemas"]
 # what it is given are the same type here, or only part of one.
 OTHER_NAMES = {"GivenAction": "Action", "GivenMotion": "Action", "GivenPose": "Pose"}
 # Members of answers that requests may have, so that answers can be sent back.
-IGNORED = {"PlanRequest": {"progress", "unavoidable", "assigned", "unassigned"},
-           "AdvanceAnswer": {"assigned", "unassigned"}, "AssignAnswer": {"progress", "unavoidable"}}
+OF_ADVANCE = {"progress", "unavoidable", "unavoidable_total"}
+OF_ASSIGN = {"assigned", "unassigned"}
+IGNORED = {"PlanRequest": OF_ADVANCE | OF_ASSIGN, "AdvanceAnswer": OF_ASSIGN, "AssignAnswer": OF_ADVANCE}
 # `problem` is raised.
 WITHOUT = {"PlanEvent": 3, "SimulationEvent": 2}
 
@@ -112,7 +113,7 @@ class Methods(Comparison):
     PARTS = {"request": {"robots", "robot_defaults", "options"}, "plans": {"plans", "dependencies"}}
     ANSWERS = {"status", "request_id", "unplanned", "tight", "flowtime", "makespan", "objective_value", "lower_bound", "estimated",
                "verified", "min_clearance", "deterministic", "lattice_spacing", "search", "timings_ms", "warnings", "metadata", "map",
-               "progress", "assigned", "unassigned"}  # members that requests may have so that answers can be merged into them
+               "progress", "unavoidable_total", "assigned", "unassigned"}  # members that requests may have so that answers can be merged into them
 
     def compare_method(self, name, path, spread):
         schema = resolve(DOCUMENT["paths"][path]["post"]["requestBody"]["content"]["application/json"]["schema"])

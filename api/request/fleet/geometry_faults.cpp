@@ -35,36 +35,39 @@ std::optional<Position> position_of(const JsonReader& pose) {
   return Position(*x.value().number(), *y.value().number());
 }
 
-bool is_on(const core::OccupancyGrid& grid, const Position& position) {
-  return position.x() >= 0.0 && position.x() <= grid.width() && position.y() >= 0.0 &&
-         position.y() <= grid.height();
+/// Whether a disk is on the map, or its centre for the radius 0.
+bool is_on(const core::OccupancyGrid& grid, const Position& position, double radius) {
+  return position.x() >= radius && position.x() <= grid.width() - radius && position.y() >= radius &&
+         position.y() <= grid.height() - radius;
 }
 
 std::string interval(double low, double length) {
   return number_text(low) + " to " + number_text(low + length) + " m";
 }
 
-/// Returns the unit in which the position would be on the map, for a sentence; empty if there is none.
-std::string fitting_unit(const Position& world, const core::OccupancyGrid& grid, const WorldFrame& frame) {
+/// Returns the unit in which a disk would be on the map, for a sentence; empty if there is none.
+std::string fitting_unit(const Position& world, double radius, const core::OccupancyGrid& grid,
+                         const WorldFrame& frame) {
   // Pixels count from the corner of the map.
-  const bool is_pixel = grid.resolution() < 1.0 && is_on(grid, world * grid.resolution());
+  const bool is_pixel = grid.resolution() < 1.0 && is_on(grid, world * grid.resolution(), radius);
   if (is_pixel) return "pixels of " + number_text(grid.resolution()) + " m";
   struct Unit {
     double metres;
     const char* name;
   };
   for (const Unit& unit : {Unit{0.01, "centimetres"}, Unit{0.001, "millimetres"}}) {
-    if (is_on(grid, frame.to_map(world * unit.metres))) return unit.name;
+    if (is_on(grid, frame.to_map(world * unit.metres), radius)) return unit.name;
   }
   return "";
 }
 
 /// Returns the phrase of a fault about a pose whose centre is not on the map, and about its probable unit:
 /// "is at (52.5, 3), outside the map, which ...". Empty if the pose is on the map.
-std::string outside_text(const JsonReader& pose, const core::OccupancyGrid& grid, const WorldFrame& frame) {
+std::string outside_text(const JsonReader& pose, double radius, const core::OccupancyGrid& grid,
+                         const WorldFrame& frame) {
   const auto world = position_of(pose);
-  if (!world || is_on(grid, frame.to_map(*world))) return "";
-  const std::string unit = fitting_unit(*world, grid, frame);
+  if (!world || is_on(grid, frame.to_map(*world), 0.0)) return "";
+  const std::string unit = fitting_unit(*world, radius, grid, frame);
   return "is at (" + number_text(world->x()) + ", " + number_text(world->y()) +
          "), outside the map, which reaches from " + interval(frame.origin.x(), grid.width()) +
          " in x and from " + interval(frame.origin.y(), grid.height()) + " in y. " +
@@ -292,7 +295,7 @@ std::string describe_pose(const core::ProblemFault& found, const JsonReader& pos
                                  ? start_remedy(found, robot.radius, inflation)
                                  : goal_remedy(found, pose, frame, nearest);
   return in_obstacle("pose", robot.radius, found.gap, obstacle_name(found, zones),
-                     outside_text(pose, grid, frame), remedy);
+                     outside_text(pose, robot.radius, grid, frame), remedy);
 }
 
 namespace {
@@ -320,12 +323,12 @@ GeometryFault describe(const core::ProblemFault& found, const Fleet& fleet,
     case Kind::start_in_obstacle:
       return {read.start, fault::kStartInObstacle,
               in_obstacle("start of robot " + name, read.robot.radius, found.gap, obstacle,
-                          outside_text(read.start, grid, frame),
+                          outside_text(read.start, read.robot.radius, grid, frame),
                           start_remedy(found, read.robot.radius, inflation))};
     case Kind::goal_in_obstacle:
       return {read.goals[found.goal], fault::kGoalInObstacle,
               in_obstacle(goal_name(read, found.goal) + " of robot " + name, found.radius, found.gap,
-                          obstacle, outside_text(read.goals[found.goal], grid, frame),
+                          obstacle, outside_text(read.goals[found.goal], found.radius, grid, frame),
                           goal_remedy(found, read.goals[found.goal], frame, nearest))};
     case Kind::starts_overlap:
       return {read.start, fault::kStartsOverlap,

@@ -62,9 +62,9 @@ struct ParsedRobot {
   JsonReader committed;
   ReceivedMotion received_committed;
   ReceivedMotion received_previous;
-  bool lists_visits = false;               // see ParsedGoals
-  std::vector<GoalTexts> goal_texts;       // see ParsedGoals
-  std::vector<core::OpenGoal> open;        // see ParsedGoals; the robot's goals have the choices
+  bool lists_visits = false;          // see ParsedGoals
+  std::vector<GoalTexts> goal_texts;  // see ParsedGoals
+  std::vector<core::OpenGoal> open;   // see ParsedGoals; the robot's goals have the choices
   /// The first goal that its plan does not serve, if the visits of the plan say so.
   std::optional<std::size_t> first_unserved = {};
   std::string metadata;                    // see parse_metadata

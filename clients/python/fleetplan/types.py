@@ -673,6 +673,7 @@ SamePlace = TypedDict("SamePlace", {"robot": str, "was": ActionPlace, "is": Acti
 class AdvanceAnswer(PlanRequest):
     progress: list[SamePlace]
     unavoidable: NotRequired[list[UnavoidableCollision]]
+    unavoidable_total: NotRequired[int]
 
 
 # ---------------------------------------------------------------- /v1/retime

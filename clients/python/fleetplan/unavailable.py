@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Collection, Iterable, Mapping
-from typing import Literal
+from typing import Any, Literal
 
 from fleetplan.course import goals_of
 from fleetplan.types import Action, Goal, PlanRequest, Pose, RobotState, VehiclePose
@@ -48,10 +48,11 @@ def _without_places(goals: list[Goal], committed: list[Action]) -> list[Goal]:
 
 
 def _is_place(goal: Goal, pose: Pose) -> bool:
-    if goal.get("service") or "x" not in goal or "y" not in goal:
+    place: Mapping[str, Any] = dict(goal)
+    if "any_of" in place or place.get("service"):
         return False
-    turn = math.remainder(goal.get("theta", pose["theta"]) - pose["theta"], math.tau)
-    return max(abs(goal["x"] - pose["x"]), abs(goal["y"] - pose["y"]), abs(turn)) <= _SAME
+    turn = math.remainder(place.get("theta", pose["theta"]) - pose["theta"], math.tau)
+    return bool(max(abs(place["x"] - pose["x"]), abs(place["y"] - pose["y"]), abs(turn)) <= _SAME)
 
 
 def serve_once(request: PlanRequest, out: Collection[str]) -> None:

@@ -60,7 +60,7 @@ struct DrivingFleet {
 
   /// Those that robots cannot avoid from there on.
   std::vector<Collision> collisions(double at, double commit) const {
-    return collisions_of_commitments(advance(at, commit), braking(at, commit), unbounded_work());
+    return collisions_of_commitments(advance(at, commit), braking(at, commit), unbounded_work()).listed;
   }
 
  private:

@@ -69,15 +69,17 @@ Json driving_body() {
   robot["start"] = pose(0.5, 1.5);
   robot["goals"] = {{{"x", 2.5}, {"y", 1.5}}, {{"x", 4.5}, {"y", 1.5}}};
   const Json plan{{"robot", robot["id"]},
-                  {"actions", {action("translate", 0.0, 2.0, pose(0.5, 1.5), pose(2.5, 1.5)),
-                               action("translate", 2.0, 4.0, pose(2.5, 1.5), pose(4.5, 1.5))}}};
+                  {"actions",
+                   {action("translate", 0.0, 2.0, pose(0.5, 1.5), pose(2.5, 1.5)),
+                    action("translate", 2.0, 4.0, pose(2.5, 1.5), pose(4.5, 1.5))}}};
   return {{"request", request}, {"plans", {plan}}, {"at", 1.0}, {"commit", 10.0}};
 }
 
 TEST(AdvanceEndpoint, ALoadThatARobotTakesWhereItIsHeldMayBeTooSlowForTheRestOfItsPlan) {
   Json body = driving_body();
   body["at"] = 2.0;
-  body["request"]["robots"][0]["goals"][0] = {{"x", 2.5}, {"y", 1.5}, {"service", 5.0}, {"linear_speed_after", 0.5}};
+  body["request"]["robots"][0]["goals"][0] = {
+      {"x", 2.5}, {"y", 1.5}, {"service", 5.0}, {"linear_speed_after", 0.5}};
   body["holds"].push_back({{"robot", "a"}, {"until", 8.0}});
   const Json next = advanced_json(body);
   EXPECT_FALSE(next["robots"][0].contains("previous")) << next;
@@ -86,8 +88,9 @@ TEST(AdvanceEndpoint, ALoadThatARobotTakesWhereItIsHeldMayBeTooSlowForTheRestOfI
 
 TEST(AdvanceEndpoint, CommitmentsEndWhereNewGoalsSlowARobotDown) {
   Json body = driving_body();
-  body["goals"].push_back({{"robot", "a"},
-                           {"goals", {{{"x", 2.5}, {"y", 1.5}, {"linear_speed_after", 0.5}}, {{"x", 0.5}, {"y", 1.5}}}}});
+  body["goals"].push_back(
+      {{"robot", "a"},
+       {"goals", {{{"x", 2.5}, {"y", 1.5}, {"linear_speed_after", 0.5}}, {{"x", 0.5}, {"y", 1.5}}}}});
   const Json next = advanced_json(body);
   ASSERT_EQ(next["robots"][0]["committed"].size(), 1U) << next;
   EXPECT_EQ(next["robots"][0]["committed"][0]["to"]["x"], 2.5);
@@ -108,7 +111,8 @@ TEST(AdvanceEndpoint, ARobotServesNothingBeforeItHasComeThereWhateverItReports) 
 TEST(AdvanceEndpoint, ADiskThatWouldBecomeLargerWhereItsCommitmentEndsStopsBeforeThat) {
   Json body = driving_body();
   body["request"]["robots"][0]["goals"][0]["radius_after"] = 0.45;
-  body["request"]["robots"].push_back({{"id", "b"}, {"radius", 0.3}, {"start", pose(2.5, 0.8)}, {"goal", pose(2.5, 0.8)}});
+  body["request"]["robots"].push_back(
+      {{"id", "b"}, {"radius", 0.3}, {"start", pose(2.5, 0.8)}, {"goal", pose(2.5, 0.8)}});
   body.erase("commit");
   const Json next = advanced_json(body);
   EXPECT_LT(next["robots"][0]["committed"].back()["to"]["x"].get<double>(), 2.5) << next;
@@ -336,6 +340,7 @@ TEST(AdvanceEndpoint, RobotsThatAreMeasuredInEachOtherAreNamedAndMayPart) {
                                   {"robot": "b", "x": 5.0, "y": 3.3, "theta": 3.14}])");
   const Json next = advanced_json(body);
   EXPECT_EQ(next["unavoidable"], Json::parse(R"([{"robots": ["a", "b"], "t": 0.0}])"));
+  EXPECT_EQ(next["unavoidable_total"], 1);
   const double overlap = 0.6 - std::hypot(0.1, 0.5);
   EXPECT_NEAR(next["options"]["start_overlap"].get<double>(), overlap + 0.1, 1e-9);
   EXPECT_EQ(next["options"]["inflation"], 0.05);
@@ -344,6 +349,28 @@ TEST(AdvanceEndpoint, RobotsThatAreMeasuredInEachOtherAreNamedAndMayPart) {
   EXPECT_EQ(advanced_json(body)["options"]["start_overlap"], 0.5);
   body["poses"] = Json::parse(R"([{"robot": "a", "x": 4.9, "y": 2.5, "theta": 0}])");
   EXPECT_FALSE(advanced_json(body).contains("unavoidable"));
+  EXPECT_FALSE(advanced_json(body).contains("unavoidable_total"));
+}
+
+TEST(AdvanceEndpoint, PairsThatOverlapAreCountedAndTheFirstOfThemListed) {
+  constexpr std::size_t kRobots = 150;
+  constexpr std::size_t kPairs = kRobots * (kRobots - 1) / 2;
+  constexpr std::size_t kMostListed = 10'000;
+  Json body = Json::parse(R"({"request": {"map": {"rows": []}, "robots": [],
+    "robot_defaults": {"radius": 0.3, "linear_speed": 1.0, "angular_speed": 3.0}}, "plans": [], "at": 1})");
+  for (std::size_t k = 0; k < kRobots; ++k) {
+    const std::string id = std::to_string(k);
+    body["request"]["map"]["rows"].push_back("...");
+    const double y = 0.5 + static_cast<double>(k);
+    body["request"]["robots"].push_back({{"id", id}, {"start", {{"x", 1.5}, {"y", y}}}});
+    body["poses"].push_back({{"robot", id}, {"x", 1.5}, {"y", 1.5}, {"theta", 0.0}});
+  }
+  const Json next = advanced_json(body);
+  EXPECT_EQ(next["unavoidable"].size(), kMostListed);
+  EXPECT_EQ(next["unavoidable_total"], kPairs);
+  body["poses"].erase(body["poses"].begin(), body["poses"].end() - 2);
+  body["request"]["unavoidable_total"] = kPairs;  // of an answer before, which is the next request
+  EXPECT_EQ(advanced_json(body)["unavoidable_total"], 3) << "two, and the one that stands there";
 }
 
 TEST(AdvanceEndpoint, ARobotThatWouldDriveIntoAWallIsNotCommittedToIt) {

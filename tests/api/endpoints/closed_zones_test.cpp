@@ -151,14 +151,16 @@ TEST(ClosedZones, EnterIsFalseAndForBlockedZones) {
   EXPECT_NE(detail_of(request).find("blocked only"), std::string::npos);
 }
 
-/// A robot that is committed to serve its first goal, to wait, and that has its other goals inside of the zone.
+/// A robot that is committed to serve its first goal, to wait, and that has its other goals inside of the
+/// zone.
 Json serving_request(double radius_after) {
   Json request = hall_request();
   request["robots"].erase(0);
   Json& robot = request["robots"][0];
   robot["start"]["theta"] = 0.0;
   robot["goals"][0] = {{"x", 100.5}, {"y", 50.5}, {"service", 2}, {"radius_after", radius_after}};
-  Json wait{{"type", "wait"}, {"t_start", 0.0}, {"t_end", 5.0}, {"from", robot["start"]}, {"to", robot["start"]}};
+  Json wait{
+      {"type", "wait"}, {"t_start", 0.0}, {"t_end", 5.0}, {"from", robot["start"]}, {"to", robot["start"]}};
   robot["committed"] = {wait};
   return request;
 }
@@ -188,7 +190,8 @@ TEST(ClosedZones, WhatCommitmentsServeIsServedIfAllOtherGoalsArePutOff) {
 
 TEST(ClosedZones, OthersMakeRoomForALoadThatACommitmentTakes) {
   Json request = serving_request(0.5);
-  request["robots"].push_back({{"id", "by"}, {"start", {{"x", 101.25}, {"y", 50.5}}}, {"goal", {{"x", 103}, {"y", 50.5}}}});
+  request["robots"].push_back(
+      {{"id", "by"}, {"start", {{"x", 101.25}, {"y", 50.5}}}, {"goal", {{"x", 103}, {"y", 50.5}}}});
   const Json answer = plan_of(request);
   EXPECT_EQ(json_of(validate_endpoint(merged(request, answer).dump(), {}))["valid"], true) << answer;
   const Json body{{"request", request}, {"plans", answer["plans"]}, {"at", 3.0}};

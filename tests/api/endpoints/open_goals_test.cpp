@@ -193,11 +193,13 @@ TEST(OpenGoals, APoseThatAPlanTurnsInIsNotServedIfItSaysSo) {
                     {{"x", 0.5}, {"y", 1.5}}};
   robot["goals"][0]["any_of"][0].erase("theta");
   const Json plan{{"robot", robot["id"]},
-                  {"actions", {action("translate", 0.0, 4.0, pose(0.5, 1.5), pose(2.5, 1.5)),
-                               action("rotate", 4.0, 8.0, pose(2.5, 1.5), pose(2.5, 1.5, 1.0)),
-                               action("wait", 8.0, 9.0, pose(2.5, 1.5, 1.0), pose(2.5, 1.5, 1.0))}},
-                  {"visits", {{{"goal", 0}, {"t_arrive", nullptr}, {"t_leave", nullptr}, {"choice", nullptr}},
-                              {{"goal", 1}, {"t_arrive", nullptr}, {"t_leave", nullptr}}}}};
+                  {"actions",
+                   {action("translate", 0.0, 4.0, pose(0.5, 1.5), pose(2.5, 1.5)),
+                    action("rotate", 4.0, 8.0, pose(2.5, 1.5), pose(2.5, 1.5, 1.0)),
+                    action("wait", 8.0, 9.0, pose(2.5, 1.5, 1.0), pose(2.5, 1.5, 1.0))}},
+                  {"visits",
+                   {{{"goal", 0}, {"t_arrive", nullptr}, {"t_leave", nullptr}, {"choice", nullptr}},
+                    {{"goal", 1}, {"t_arrive", nullptr}, {"t_leave", nullptr}}}}};
   const Json body{{"request", request}, {"plans", {plan}}, {"at", 5.0}, {"commit", 10.0}};
   const Reply reply = advance_endpoint(body.dump(), {});
   ASSERT_EQ(reply.status, 200) << reply.body;

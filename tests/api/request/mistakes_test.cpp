@@ -68,6 +68,13 @@ TEST(Mistakes, OfUnitsAreNamed) {
   EXPECT_THAT(first_detail(request), HasSubstr("in pixels of 0.5 m it would be on the map"));
 }
 
+TEST(Mistakes, OfUnitsAreNotNamedWhereTheDiskWouldNotFit) {
+  Json request = hall_request();
+  request["robots"][0]["start"] = at(0.7, 0.0);
+  EXPECT_THAT(first_detail(request), AllOf(HasSubstr("outside the map"), Not(HasSubstr("pixels")),
+                                           HasSubstr("Move it onto the map")));
+}
+
 TEST(Mistakes, OfPosesUpsideDownAreNamed) {
   Json request = hall_request();
   for (Json& robot : request["robots"]) {

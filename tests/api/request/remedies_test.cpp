@@ -10,6 +10,7 @@
 #include "core/planner.h"
 #include "core/runtime/random.h"
 #include "tests/api/support/requests.h"
+#include "tests/support/base64.h"
 #include "tests/support/unbounded_work.h"
 
 namespace fleetplan::api {
@@ -188,6 +189,19 @@ TEST(Remedies, OfGoalsThatOverlapAreToYieldAndToChoose) {
   request["robots"][0]["goal"] = both;
   request["robots"][1]["goal"] = both;
   EXPECT_EQ(planned(request), "solved");
+}
+
+TEST(Remedies, OfAMaskOfAnotherSizeAreItsResolutionAndOrigin) {
+  Json request = room();
+  std::string pixels(20 * 4, '\xff');
+  for (std::size_t row = 0; row < 4; ++row) pixels[20 * row + 10] = '\0';  // closes the lower half at x = 5
+  request["zones"] = Json::array(
+      {{{"id", "k"}, {"type", "blocked"}, {"mask", {{"pgm", support::base64("P5 20 4 255\n" + pixels)}}}}});
+  EXPECT_THAT(detail_of(request), HasSubstr("give the resolution and the origin of the mask"));
+  request["zones"][0]["mask"].update({{"resolution", 0.5}, {"origin", {0.0, 0.0, 0.0}}});
+  EXPECT_EQ(planned(request), "solved") << "above it, at y = 2 and more";
+  request["robots"][0]["goal"] = goal(5.1, 1.0);
+  EXPECT_EQ(nearest_place(detail_of(request)), goal(4.7, 1.0)) << "beside the pixels of half a metre";
 }
 
 TEST(Remedies, OfARobotWithoutAGoalOnACommittedWayIsToYield) {

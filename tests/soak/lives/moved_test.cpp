@@ -72,8 +72,12 @@ using Endpoint = std::function<Reply(const Json&)>;
 
 Reply planned(const Json& request) { return planned_in(5'000, request); }
 
+/// Which answers are to be the same, moved.
+enum class Digits { all, most };
+
 /// Sends a request and the same one moved, and returns the answer to the first.
-Json expect_moved(const char* name, const Endpoint& endpoint, const Json& body, const Shift& by) {
+Json expect_moved(const char* name, const Endpoint& endpoint, const Json& body, const Shift& by,
+                  Digits digits = Digits::all) {
   const Json other = moved(body, by.x, by.y);
   const Reply reply = endpoint(body);
   const Reply moved_reply = endpoint(other);
@@ -82,7 +86,9 @@ Json expect_moved(const char* name, const Endpoint& endpoint, const Json& body, 
   Json answer = Json::parse(reply.body);
   const Json expected = lasting(moved(answer, by.x, by.y));
   const Json found = lasting(Json::parse(moved_reply.body));
-  if (loses_nothing(body, by)) {
+  if (digits == Digits::most) {
+    EXPECT_TRUE(are_near(found, expected)) << name << " by " << by.x << ' ' << by.y << '\n' << body;
+  } else if (loses_nothing(body, by)) {
     EXPECT_EQ(found, expected) << name << " by " << by.x << ' ' << by.y << '\n' << body;
   } else {
     EXPECT_TRUE(are_near(outcome(found), outcome(expected))) << name << '\n'
@@ -148,7 +154,8 @@ void expect_all_moved(Dice& dice, const Json& request, const Shift& by) {
   executed["timestamp"] = "2026-01-31T12:00:00.000Z";
   executed["map_id"] = "hall";
   if (dice.chance(0.5)) executed["release_ahead"] = dice.between(1.0, 20.0);
-  expect_moved("export", of(vda5050_endpoint), executed, by);
+  // Orders have places within moves, which are computed in the world.
+  expect_moved("export", of(vda5050_endpoint), executed, by, Digits::most);
   Json retimed{{"robots", request.at("robots")},
                {"plans", answer.at("plans")},
                {"dependencies", dependencies.at("dependencies")},
