@@ -302,6 +302,7 @@ std::vector<NodeServices> services_left(const OrderBase& base) {
     NodeServices of_node{{position.find("x").value().number().value_or(0.0),
                           position.find("y").value().number().value_or(0.0)}};
     bool are_finished = true;
+    // Bounded: the actions in the body.
     for (const JsonReader action : node.find("actions").items()) {
       const auto id = action.find("actionId").string();
       if (!id || action.find("actionType").string() == "fleetplanWait") continue;

@@ -201,7 +201,9 @@ TEST(Remedies, OfAMaskOfAnotherSizeAreItsResolutionAndOrigin) {
   request["zones"][0]["mask"].update({{"resolution", 0.5}, {"origin", {0.0, 0.0, 0.0}}});
   EXPECT_EQ(planned(request), "solved") << "above it, at y = 2 and more";
   request["robots"][0]["goal"] = goal(5.1, 1.0);
-  EXPECT_EQ(nearest_place(detail_of(request)), goal(4.7, 1.0)) << "beside the pixels of half a metre";
+  const Json place = nearest_place(detail_of(request));
+  EXPECT_NEAR(place["x"].get<double>(), 4.7, 0.02) << "beside the pixels of half a metre";
+  EXPECT_EQ(place["y"], 1.0);
 }
 
 TEST(Remedies, OfARobotWithoutAGoalOnACommittedWayIsToYield) {
