@@ -247,6 +247,11 @@ double served_until(const core::Robot& robot, const Execution& execution, const 
   return goes_on ? action.t_start : t;
 }
 
+GoalsLeft goals_left(const core::Robot& robot, const Execution& execution, const Located& located,
+                     const Moment& moment) {
+  return goals_left(robot, execution, served_until(robot, execution, located, moment), moment.at);
+}
+
 /// Whether a robot that is so far in its actions is on the way, not only about to set out. Its own word
 /// counts.
 bool drives(const core::Robot& robot, const Execution& execution, const TimedProgress& progress) {
@@ -391,7 +396,7 @@ Advanced advanced_with_course(const core::Robot& robot, const Execution& executi
   Course course = moment.stand_until ? standing_course(robot, execution, located, moment)
                                      : usual_course(robot, execution, located, moment);
   Remainder& rest = course.rest;
-  GoalsLeft left = goals_left(robot, execution, served_until(robot, execution, located, moment), moment.at);
+  GoalsLeft left = goals_left(robot, execution, located, moment);
 
   core::Robot next = robot;
   next.start = rest.start;
@@ -426,8 +431,7 @@ core::Robot advanced(const core::Robot& robot, const Execution& execution, const
 PassedGoals passed_goals(const core::Robot& robot, const Execution& execution, const Moment& moment,
                          const core::Robot& next) {
   if (!execution.goals) return {};
-  const double progress = served_until(robot, execution, locate(robot, execution, moment), moment);
-  const GoalsLeft left = goals_left(robot, execution, progress, moment.at);
+  const GoalsLeft left = goals_left(robot, execution, locate(robot, execution, moment), moment);
   return {left.visited, count_of_passed(next, left.goals)};
 }
 
@@ -439,10 +443,8 @@ void leave_out_unfit(std::vector<core::Robot>& next, const std::vector<core::Rob
     if (robot.previous && !is_accepted(*robot.previous, robot)) robot.previous.reset();
     if (!executions[k].goals) continue;
     if (work.met_after(kWorkOfAnAction * (1 + executions[k].actions.size()))) return;
-    const double progress =
-        served_until(robots[k], executions[k], locate(robots[k], executions[k], moment), moment);
-    set_other_goals(robot, goals_left(robots[k], executions[k], progress, moment.at).goals,
-                    *executions[k].goals);
+    const Located located = locate(robots[k], executions[k], moment);
+    set_other_goals(robot, goals_left(robots[k], executions[k], located, moment).goals, *executions[k].goals);
   }
 }
 

@@ -335,7 +335,7 @@ class GoalsToRepeat {
     if (texts_of(goal).any_of.empty() || is_passed(goal)) return false;
     const core::Goal& next = left_.goal_at(goal);
     const core::OpenGoal* open = open_goal(goal);
-    const bool is_settled = !are_other_ && open != nullptr && open->is_settled;
+    const bool is_settled = open != nullptr && open->is_settled;
     if (goal > 0 || !is_settled || !core::is_in_pose(left_.start, next)) return true;
     return repeated_.returns && left_.own_goal_count() == 1 && next.service == 0.0;
   }

@@ -15,6 +15,7 @@
 #include "api/request/fleet/parse_plans.h"
 #include "api/request/limits.h"
 #include "api/request/parse_body.h"
+#include "api/request/shared_members.h"
 #include "api/response/write_response.h"
 #include "core/execution/simulation/disturbance.h"
 
@@ -75,15 +76,11 @@ core::Disturbance parse_disturbance(const JsonReader& member) {
   return disturbance;
 }
 
-// The members of a request to simulate, then those that answers of /v1/plan, /v1/advance and /v1/assign add,
-// which are ignored.
-constexpr std::array<std::string_view, 36> kSimulateRequestMembers{
-    "map",           "robot_defaults", "robots",    "obstacles",       "zones",       "options",
-    "plans",         "policy",         "max_delay", "disturbance",     "runs",        "seed",
-    "trace",         "dependencies",   "tight",     "unavoidable",     "status",      "request_id",
-    "unplanned",     "flowtime",       "makespan",  "objective_value", "lower_bound", "verified",
-    "min_clearance", "deterministic",  "search",    "timings_ms",      "warnings",    "lattice_spacing",
-    "metadata",      "estimated",      "progress",  "assigned",        "unassigned",  "unavoidable_total"};
+// What answers have beside the plans is ignored, but for `dependencies`.
+constexpr std::array<std::string_view, 7> kSimulationMembers{"plans", "policy", "max_delay", "disturbance",
+                                                             "runs",  "seed",   "trace"};
+constexpr auto kSimulateRequestMembers =
+    joined(kFleetMembers, kSimulationMembers, kPlanAnswerMembers, kAddedMembers);
 
 // In the order of core::ExecutionPolicy.
 constexpr std::array<std::string_view, 4> kPolicies{"open_loop", "absorb_waits", "dependencies",

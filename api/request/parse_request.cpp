@@ -312,15 +312,9 @@ Result<PlanRequest, RequestError> parse_request(std::string_view body, const Lim
 
 namespace {
 
-// The members of a request to validate, then those that answers of /v1/plan, /v1/advance and /v1/assign add,
-// which are ignored.
-constexpr std::array<std::string_view, 31> kValidateRequestMembers{
-    "map",          "robot_defaults",    "robots",      "obstacles",       "unavoidable",   "options",
-    "plans",        "tolerance",         "status",      "request_id",      "unplanned",     "flowtime",
-    "makespan",     "objective_value",   "lower_bound", "verified",        "min_clearance", "deterministic",
-    "search",       "timings_ms",        "warnings",    "lattice_spacing", "metadata",      "zones",
-    "dependencies", "unavoidable_total", "estimated",   "progress",        "assigned",      "unassigned",
-    "tight"};
+// What answers have beside the plans is ignored, but for `unavoidable`.
+constexpr auto kValidateRequestMembers = joined(
+    kFleetMembers, std::array<std::string_view, 2>{"plans", "tolerance"}, kPlanAnswerMembers, kAddedMembers);
 
 constexpr double kDefaultTolerance = core::kMostTolerance;  // metres, seconds, radians
 constexpr double kLargestTolerance = 1e9;

@@ -2,7 +2,6 @@
 
 // The bodies of requests to plan and to validate.
 
-#include <array>
 #include <chrono>
 #include <cstddef>
 #include <optional>
@@ -50,17 +49,6 @@ struct PlanRequest {
 
 /// Tells the answer which poses are chosen.
 void tell_choices(PlanRequest& request);
-
-/// The members of a request of POST /v1/plan. Those from `progress` on are of the answers of other endpoints,
-/// for who executes the plans, and are ignored.
-inline constexpr std::array<std::string_view, 12> kPlanRequestMembers{
-    "map",      "robot_defaults", "robots",      "obstacles",         "zones",    "options",
-    "metadata", "progress",       "unavoidable", "unavoidable_total", "assigned", "unassigned"};
-
-inline bool is_of_an_answer(std::string_view member) {
-  return member == "progress" || member == "unavoidable" || member == "unavoidable_total" ||
-         member == "assigned" || member == "unassigned";
-}
 
 /// Reads a request of POST /v1/plan, which may be a part of a body. Returns none only when it reported
 /// faults, or when `work` is met.

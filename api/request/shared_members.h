@@ -4,6 +4,7 @@
 // unique, and what answers repeat.
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -19,6 +20,36 @@
 #include "core/model/action.h"
 
 namespace fleetplan::api {
+
+/// Lists of members, one behind the other.
+template <std::size_t... kCounts>
+constexpr auto joined(const std::array<std::string_view, kCounts>&... lists) {
+  std::array<std::string_view, (kCounts + ...)> all{};
+  auto end = all.begin();
+  ((end = std::copy(lists.begin(), lists.end(), end)), ...);
+  return all;
+}
+
+/// The members that say what is planned.
+inline constexpr std::array<std::string_view, 7> kFleetMembers{
+    "map", "robot_defaults", "robots", "obstacles", "zones", "options", "metadata"};
+
+/// What the answers of POST /v1/advance and /v1/assign add to a request, for who executes the plans.
+inline constexpr std::array<std::string_view, 5> kAddedMembers{"progress", "unavoidable", "unavoidable_total",
+                                                               "assigned", "unassigned"};
+
+/// What an answer of POST /v1/plan has beside its plans.
+inline constexpr std::array<std::string_view, 17> kPlanAnswerMembers{
+    "status",      "request_id",   "unplanned",     "flowtime",  "makespan",       "objective_value",
+    "lower_bound", "verified",     "min_clearance", "search",    "deterministic",  "timings_ms",
+    "warnings",    "dependencies", "tight",         "estimated", "lattice_spacing"};
+
+/// The members of a request of POST /v1/plan. What is added is ignored.
+inline constexpr auto kPlanRequestMembers = joined(kFleetMembers, kAddedMembers);
+
+inline bool is_of_an_answer(std::string_view member) {
+  return std::find(kAddedMembers.begin(), kAddedMembers.end(), member) != kAddedMembers.end();
+}
 
 class GivenPositions;
 

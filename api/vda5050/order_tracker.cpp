@@ -232,25 +232,40 @@ void OrderTracker::find_failed_actions() {
   }
 }
 
+namespace {
+
+core::Position position_of(const JsonReader& node) {
+  const JsonReader position = node.find("nodePosition");
+  return {position.find("x").value().number().value_or(0.0),
+          position.find("y").value().number().value_or(0.0)};
+}
+
+/// The id of an action that serves a goal; none for one that only waits.
+std::optional<std::string_view> service_id(const JsonReader& action) {
+  if (action.find("actionType").string() == "fleetplanWait") return std::nullopt;
+  return action.find("actionId").string();
+}
+
+bool is_near(const core::Position& a, const core::Position& b) { return (a - b).norm() <= kSameNode; }
+
+}  // namespace
+
 /// Of released nodes of an order that the plan goes on with: their services are among the committed actions.
 void OrderTracker::find_failed_actions_of_base() {
   const auto& base = request_.bases[robot_];
   if (!base) return;
   const core::Actions committed_actions = actions_.first(committed());
   for (const JsonReader& node : base->released) {
-    const JsonReader position = node.find("nodePosition");
-    const core::Position at(position.find("x").value().number().value_or(0.0),
-                            position.find("y").value().number().value_or(0.0));
+    const core::Position at = position_of(node);
     // Bounded: the actions in the body.
     for (const JsonReader action : node.find("actions").items()) {
-      const auto id = action.find("actionId").string();
-      const bool is_wait = action.find("actionType").string() == "fleetplanWait";
-      if (!id || is_wait || !state_->failed_actions.contains(*id)) continue;
+      const auto id = service_id(action);
+      if (!id || !state_->failed_actions.contains(*id)) continue;
       FailedAction& failed = failed_.emplace_back(FailedAction{std::string(*id)});
       if (work_.met_after(committed_actions.size())) return;
       for (std::size_t k = 0; k < committed_actions.size() && !failed.goal; ++k) {
         const core::Action& wait = committed_actions[k];
-        if (!wait.goal || (wait.from.position - at).norm() > kSameNode) continue;
+        if (!wait.goal || !is_near(wait.from.position, at)) continue;
         failed.goal = wait.goal;
         failed.at = core::ActionPlace{k, 0.0};
       }
@@ -298,14 +313,12 @@ struct NodeServices {
 std::vector<NodeServices> services_left(const OrderBase& base) {
   std::vector<NodeServices> services;
   for (const JsonReader& node : base.released) {
-    const JsonReader position = node.find("nodePosition");
-    NodeServices of_node{{position.find("x").value().number().value_or(0.0),
-                          position.find("y").value().number().value_or(0.0)}};
+    NodeServices of_node{position_of(node)};
     bool are_finished = true;
     // Bounded: the actions in the body.
     for (const JsonReader action : node.find("actions").items()) {
-      const auto id = action.find("actionId").string();
-      if (!id || action.find("actionType").string() == "fleetplanWait") continue;
+      const auto id = service_id(action);
+      if (!id) continue;
       of_node.ids.push_back(*id);
       are_finished = are_finished && base.finished.contains(*id);
     }
@@ -313,8 +326,6 @@ std::vector<NodeServices> services_left(const OrderBase& base) {
   }
   return services;
 }
-
-bool is_near(const core::Position& a, const core::Position& b) { return (a - b).norm() <= kSameNode; }
 
 }  // namespace
 

@@ -269,11 +269,10 @@ class WaysOut {
     result.postponed = postponed(index, served, radii);
     const bool has_goals_left = !result.postponed || result.postponed->first > served;
     const bool yields = robot.yields();
-    if (result.postponed) take_goals_away(robot, result.postponed->first);
-    if (!has_goals_left && robot.goal) robot.via.push_back(*std::exchange(robot.goal, std::nullopt));
+    if (result.postponed) take_goals_away(robot, result.postponed->first, has_goals_left);
     find_way(index, radii[served], has_goals_left, result);
-    const bool has_goal_or_none = robot.goal || robot.via.empty();
-    if (result.postponed && (yields || !has_goal_or_none)) robot.let_yield();
+    const bool lacks_last_goal = !robot.goal && !robot.via.empty();
+    if (result.postponed && (yields || lacks_last_goal)) robot.let_yield();
     return result;
   }
 
@@ -286,7 +285,6 @@ class WaysOut {
     };
     result.way_out = way_out(index, from, radius, may_end);
     if (has_goals_left || result.way_out.empty()) return;
-    result.rests_outside = true;
     robots_[index].goal = Goal{result.way_out.back(), std::nullopt};
   }
 
@@ -304,15 +302,13 @@ class WaysOut {
     return std::nullopt;
   }
 
-  /// Leaves so many goals.
-  static void take_goals_away(Robot& robot, std::size_t left) {
-    if (left == 0) {
-      robot.via.clear();
-      robot.goal.reset();
-      return;
-    }
-    robot.goal = robot.via[left - 1];
-    robot.via.resize(left - 1);
+  /// Leaves so many goals. `has_last`: it stays at the last one of them; otherwise it has no goal to stay at.
+  static void take_goals_away(Robot& robot, std::size_t left, bool has_last) {
+    robot.via.resize(left);
+    robot.goal.reset();
+    if (!has_last) return;
+    robot.goal = robot.via.back();
+    robot.via.pop_back();
   }
 
   std::vector<Position> way_out(std::size_t index, const Position& from, double radius,

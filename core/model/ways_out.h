@@ -77,15 +77,12 @@ struct Leaving {
   /// each is straight ahead of the one before, and only the last one is clear of them. Empty if the robot is
   /// not inside, stays, or has no way out.
   std::vector<Position> way_out = {};
-  /// Whether the last place of the way out stands in for the goals that are put off. Those before them have
-  /// been served when the way out begins.
-  bool rests_outside = false;
 };
 
 /// Finds what zones that may be left change for the robots, by robot; an empty list if there are no such
 /// zones. Takes the goals that are put off away from the robots: one that is inside and has no goals left
-/// gets the end of its way out as its last goal; one outside yields, or has no goal if it never had served
-/// any. `inflation`: metres. Ends early when the stop is met; then the result must not be used.
+/// gets the end of its way out as its last goal; one outside has none, or yields if it has served some
+/// before. `inflation`: metres. Ends early when the stop is met; then the result must not be used.
 std::vector<Leaving> find_ways_out(const ZoneMaps& maps, const std::vector<Zone>& zones, double inflation,
                                    std::vector<Robot>& robots, const StopCondition& stop);
 

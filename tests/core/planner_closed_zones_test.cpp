@@ -158,7 +158,7 @@ TEST(ClosedZone, OneWhoseGoalsAreAllPutOffStaysOutsideOrLeaves) {
   ASSERT_TRUE(plan.unplanned.empty()) << plan.unplanned[0].detail;
   EXPECT_TRUE(plan.plans[0].actions.empty());
   for (const std::size_t robot : {1U, 2U}) {
-    EXPECT_TRUE(problem.leaving(robot)->rests_outside);
+    EXPECT_EQ(problem.robots()[robot].goal->position, problem.leaving(robot)->way_out.back());
     EXPECT_GE(distance_to_zone(zone, plan.plans[robot].actions.back().to.position), 0.4 - 1e-6);
   }
 }

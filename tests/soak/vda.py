@@ -8,9 +8,10 @@ Usage: vda.py [--binary FLEETPLAN | --url URL] [--minutes N | --seconds N] [--ro
 
 --minutes are those of this machine, --seconds those of the vehicles, for each version: the same on every machine.
 
-Prints what it did, with a digest: two runs in which the same happened have the same. The exit status is 1 unless each mission was served exactly once in the end, the ways that are released
-to vehicles never came too near to each other, nobody was met but by a vehicle that was pushed, no vehicle stood for long
-without a reason, and nothing but FleetplanError was raised.
+Prints what it did, with a digest: two runs in which the same happened have the same. The exit status is 1 unless each
+mission was served exactly once in the end, the ways that are released to vehicles never came too near to each other,
+nobody was met but by a vehicle that was pushed, no vehicle stood for long without a reason, and nothing but
+FleetplanError was raised.
 """
 
 import argparse
@@ -179,7 +180,8 @@ class Soak:
             elif self.dice.random() < STEP_S / EVERY_S:
                 self.fine_since[vehicle.name] = self.now + SETTLES_S
                 kind = self.dice.choice([self.rubbish, self.rubbish, self.refuse, self.fail_action, self.restart, self.push,
-                                         self.push, self.cancel, self.stop, self.pause, self.lose_place, self.change_map, self.break_down])
+                                         self.push, self.cancel, self.stop, self.pause, self.lose_place,
+                                         self.change_map, self.break_down])
                 kind(vehicle)
 
     def end_disturbances(self):

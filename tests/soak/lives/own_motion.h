@@ -75,8 +75,8 @@ class OwnMotion {
     y_ = robot.at("start").at("y");
     Json start = robot.at("start");
     if (!start.contains("theta")) start["theta"] = 0.0;
-    if (!actions.empty())
-      rest(start, 0.0);  // a robot that is committed to nothing serves nothing before it is planned
+    // A robot that is committed to nothing serves nothing before it is planned.
+    if (!actions.empty()) rest(start, 0.0);
     for (const Json& action : actions) add(action);
   }
 
