@@ -155,7 +155,7 @@ namespace {
 
 /// Seconds; smaller waits are rounding. Far below the tolerances of the verifier.
 constexpr double kNegligible = 1e-12;
-/// Seconds: rounding of the end of a rotation before a visit.
+/// Seconds: rounding of the end of a rotation before a move or a visit.
 constexpr double kRounding = 1e-9;
 
 /// Where the search has less than kLeastAction, the robot is there, or as good as turned; a wait takes
@@ -180,7 +180,7 @@ class ActionList {
   }
   /// Rotates to a heading, then waits until `t_end`.
   void rotate_and_wait(double theta, double t_end) {
-    rotate(theta, t_end, kNegligible);
+    rotate(theta, t_end, kRounding);
     wait(t_end, {});
   }
   /// Rests in the pose of a goal, and waits there until its service ends.
