@@ -161,7 +161,7 @@ Json serving_request(double radius_after) {
   robot["goals"][0] = {{"x", 100.5}, {"y", 50.5}, {"service", 2}, {"radius_after", radius_after}};
   Json wait{
       {"type", "wait"}, {"t_start", 0.0}, {"t_end", 5.0}, {"from", robot["start"]}, {"to", robot["start"]}};
-  robot["committed"] = {wait};
+  robot["committed"] = Json::array({wait});  // compilers differ about what {wait} is
   return request;
 }
 
