@@ -270,16 +270,11 @@ class Soak:
         if message.topic != "order":
             return
         vehicle = self.vehicles[message.serial_number]
-        base = [node["nodePosition"] for node in message.body["nodes"] if node["released"]]
-        way = [*vehicle.stretch(), *((place["x"], place["y"]) for place in base)]
         for other in self.vehicles.values():
             if other is vehicle or {vehicle.name, other.name} & self.displaced:
                 continue
-            ways = [other.stretch(), *([(node["nodePosition"]["x"], node["nodePosition"]["y"]) for node in sent.body["nodes"]
-                                        if node["released"]] for sent in other.inbox if sent.topic == "order")]
-            for its in ways:
-                if apart(way, its) < vehicle.radius + other.radius - RELEASED_M:
-                    self.fail(f"a way is released to {vehicle.name} that touches the one of {other.name}")
+            if apart(released_to(vehicle), released_to(other)) < vehicle.radius + other.radius - RELEASED_M:
+                self.fail(f"a way is released to {vehicle.name} that touches the one of {other.name}")
 
     def check_motion(self):
         for vehicle in self.vehicles.values():
@@ -347,6 +342,13 @@ class Soak:
         for title, counts in (("done", self.counts), ("told", self.told), ("orders refused", reasons)):
             print(f"{title}: " + ", ".join(f"{count} {what}" for what, count in sorted(counts.items())))
         print(f"digest: {self.digest.hexdigest()[:16]}", flush=True)
+
+
+def released_to(vehicle):
+    """Where it may drive once it has read what it was sent; each order begins where the one before it ends."""
+    bases = [node["nodePosition"] for sent in vehicle.inbox if sent.topic == "order"
+             for node in sent.body["nodes"] if node["released"]]
+    return [*vehicle.stretch(), *((place["x"], place["y"]) for place in bases)]
 
 
 def apart(way, other):
