@@ -23,6 +23,7 @@
 #include "core/replan/kept_plans.h"
 #include "core/runtime/executor.h"
 #include "core/runtime/memory_lack.h"
+#include "core/runtime/shared_turn.h"
 #include "core/runtime/stop_condition.h"
 #include "core/travel/goal_choice.h"
 #include "core/verify/verify.h"
@@ -394,11 +395,13 @@ Reply planned(const Planner& planner, std::string_view body, const RequestContex
   }
   core::CallerThread callers_thread;
   core::Executor& executor = context.executor != nullptr ? *context.executor : callers_thread;
-  const bool is_chosen = choose_poses_by_arrival(*request, stop, executor);
+  core::SharedTurn turn(stop, [&] { return context.turn == nullptr || context.turn->let_others(); });
+  const core::StopCondition shared = turn.stop();
+  const bool is_chosen = choose_poses_by_arrival(*request, shared, executor);
   const auto plan_with_poses = [&](const PlanRequest& one) {
-    return plan_or_none(planner, one, stop, reporter ? &*reporter : nullptr);
+    return plan_or_none(planner, one, shared, reporter ? &*reporter : nullptr);
   };
-  core::Plan plan = with_other_poses(plan_with_poses(*request), *request, stop, executor, plan_with_poses);
+  core::Plan plan = with_other_poses(plan_with_poses(*request), *request, shared, executor, plan_with_poses);
   plan.deterministic = plan.deterministic && is_chosen;
   return reporter && reporter->rejection() ? *reporter->rejection() : answer(plan, context.answered);
 }

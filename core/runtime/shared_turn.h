@@ -13,7 +13,7 @@ namespace fleetplan::core {
 /// Shares the turn of a job with others by time: whatever its threads do, `go_on` is asked about every
 /// kPeriod, from within the loops that ask the job's stop condition. It may take its time, while others
 /// compute; meanwhile all threads of the job wait. If it returns false, the stop condition is met from then
-/// on.
+/// on. Conditions that outlast it, for the little that is done at the end, neither ask nor end.
 class SharedTurn final : public EarlyEnd {
  public:
   using GoOn = std::function<bool()>;
@@ -32,11 +32,14 @@ class SharedTurn final : public EarlyEnd {
     return !ended_ && ask();
   }
 
-  bool met(bool /*outlasts*/) override {
-    if (!ended_ && now() >= next_) share_if_due();
-    return ended_ || inner_.met();
+  /// Whether the turn has ended; the conditions themselves know their deadlines.
+  bool met(bool outlasts) override {
+    if (!outlasts && !ended_ && now() >= next_) share_if_due();
+    return (!outlasts && ended_) || inner_.ended_early(outlasts);
   }
-  bool is_over(bool /*outlasts*/) const override { return ended_ || inner_.is_over(); }
+  bool is_over(bool outlasts) const override {
+    return (!outlasts && ended_) || inner_.is_over_early(outlasts);
+  }
 
  private:
   using Clock = StopCondition::Clock;

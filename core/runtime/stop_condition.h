@@ -85,6 +85,9 @@ class StopCondition {
     other.early_ = early;
     return other;
   }
+  /// What ends this condition early, see EarlyEnd; for what takes its place.
+  bool ended_early(bool outlasts) const { return early_ != nullptr && early_->met(outlasts); }
+  bool is_over_early(bool outlasts) const { return early_ != nullptr && early_->is_over(outlasts); }
   bool cancelled() const { return stop_.stop_requested(); }
   /// Whether the time is over: cancelled, or after the deadline, whatever else the condition is met for.
   bool is_over() const {

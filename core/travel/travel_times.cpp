@@ -142,12 +142,12 @@ std::optional<TravelAnswers> travel_times(const Problem& problem, const PlanOpti
   std::atomic<bool> is_cut = false;
   executor.run(answers.size(), [&](std::size_t k) {
     const MemoryScope scope(account);
-    if (turn.met(false)) is_cut = true;
+    if (patience.met()) is_cut = true;
     if (is_cut) return;
     auto mine = travels.take();
     answers[k] = mine->column(questions.columns[k], questions.any_heading, patience);
     travels.give_back(std::move(mine));
-    if (turn.met(false)) is_cut = true;
+    if (patience.met()) is_cut = true;
   });
   if (is_cut) return std::nullopt;
   return answers;

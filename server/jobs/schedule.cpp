@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 namespace fleetplan::server {
@@ -19,7 +20,10 @@ constexpr double kLeastEnough = 2.0;
 constexpr double kDeviations = 4.0;
 constexpr double kWaitMargin = 1.5;
 
-/// Whether a job of this kind lets others have its turn while it goes on for long.
+/// A plan is much smaller than another one with this part of its work at most. Times grow faster than work.
+constexpr double kMuchSmaller = 0.25;
+
+/// Whether a job of this kind lets any other have its turn while it goes on for long.
 bool shares_turns(Schedule::Kind kind) {
   return kind == Schedule::Kind::simulation || kind == Schedule::Kind::travel;
 }
@@ -61,7 +65,8 @@ std::optional<Refusal> Schedule::request_turn(Job& job, const Need& need, Time n
     return std::nullopt;
   }
   job.latest_start = before(need.deadline, enough_s(job));
-  const double wait_s = std::max(expected_wait_s(&job, now), shared_wait_s(job));
+  const double wait_s =
+      std::min(std::max(expected_wait_s(&job, now), own_wait_s(job)), wait_to_share_s(job, now));
   if (before(job.latest_start, kWaitMargin * wait_s) <= now) return Refusal::too_late;
   job.state = State::waiting;
   return std::nullopt;
@@ -81,12 +86,16 @@ Schedule::Improvement Schedule::improve(Job& job, Time now) {
 }
 
 Schedule::Job* Schedule::share(Job& job, Time now) {
-  const bool lane = job.in_lane;
-  if (now - job.since < kLongTurn || next_to_share(lane, now) == nullptr) return nullptr;
-  if (job.state == State::computing) learn(job, now);
+  if (job.state != State::computing || now - job.since < kLongTurn) return nullptr;
+  if (next_to_share(job, now) == nullptr) return nullptr;
+  if (job.need.kind == Kind::plan) {
+    job.computed += now - job.since;
+  } else {
+    learn(job, now);
+  }
   take_back(job);
-  Job* successor = next_to_share(lane, now);
-  grant(*successor, lane, now);
+  Job* successor = next_to_share(job, now);
+  grant(*successor, job.in_lane, now);
   job.state = State::waiting;
   job.is_interrupted = true;
   job.latest_start = job.need.deadline;
@@ -121,27 +130,34 @@ std::size_t Schedule::paused() const {
 bool Schedule::precedes(const Job& a, const Job& b) const {
   const auto rank = [&](const Job& job) {
     const Client& client = clients_.at(job.client);
-    return std::tuple(job.state == State::paused, client.turns, client.last_turn, job.due);
+    const bool is_first = job.is_interrupted && job.need.kind == Kind::plan;
+    return std::tuple(!is_first, job.state == State::paused, client.turns, client.last_turn, job.due);
   };
   return rank(a) < rank(b);
 }
 
 /// Whether a job that waits may have the turn of one that is interrupted for it.
-bool Schedule::may_take_over(const Job& job) const {
+bool Schedule::may_take_over(const Job& job, const Job& from) const {
+  if (from.in_lane && !job.need.is_short) return false;
   if (job.is_interrupted) return true;
-  return paused() < size_.workers + (shares_turns(job.need.kind) ? 0 : 1);
+  const bool shares = shares_turns(job.need.kind);
+  if (from.need.kind == Kind::plan) {
+    const bool is_small = job.need.kind == Kind::plan ? job.need.work <= kMuchSmaller * from.need.work
+                                                      : expected_s(job) <= Seconds(kLongTurn).count();
+    if (shares || !is_small) return false;
+  }
+  return paused() < size_.workers + (shares ? 0 : 1);
 }
 
-/// Returns the job that gets a turn which is shared, the worker's or the lane's; null if none may have it.
-Schedule::Job* Schedule::next_to_share(bool for_lane, Time now) const {
+/// Returns the job that gets the turn that one shares; null if none may have it.
+Schedule::Job* Schedule::next_to_share(const Job& from, Time now) const {
   const auto precedes_in_sharing = [&](const Job& a, const Job& b) {
     const bool differ = a.client == b.client && a.is_interrupted != b.is_interrupted;
     return differ ? b.is_interrupted : precedes(a, b);
   };
   Job* best = nullptr;
   for (Job* job : jobs_) {
-    if (job->state != State::waiting || job->latest_start <= now || !may_take_over(*job)) continue;
-    if (for_lane && !job->need.is_short) continue;
+    if (job->state != State::waiting || job->latest_start <= now || !may_take_over(*job, from)) continue;
     if (best == nullptr || precedes_in_sharing(*job, *best)) best = job;
   }
   return best;
@@ -195,7 +211,7 @@ Schedule::Job* Schedule::hand_over(bool lane, Time now) {
 
 void Schedule::learn(const Job& job, Time now) {
   Pace& pace = paces_[static_cast<std::size_t>(job.need.kind)];
-  const double seconds = Seconds(now - job.since).count();
+  const double seconds = Seconds(job.computed + (now - job.since)).count();
   if (pace.work == 0.0) {
     pace = {seconds, 0.0, job.need.work};
     return;
@@ -223,7 +239,7 @@ double Schedule::enough_s(const Job& job) const {
 /// as long again as it has already. An improvement gives its turn away at once.
 double Schedule::remaining_s(const Job& job, Time now) const {
   if (job.state == State::improving) return 0.0;
-  const double age_s = Seconds(now - job.since).count();
+  const double age_s = Seconds(job.computed + (now - job.since)).count();
   const double left_s = std::max(expected_s(job) - age_s, age_s);
   if (job.need.deadline == Time::max()) return left_s;
   return std::clamp(Seconds(job.need.deadline - now).count(), 0.0, left_s);
@@ -231,13 +247,32 @@ double Schedule::remaining_s(const Job& job, Time now) const {
 
 /// Returns the seconds that a job waits when turns go round the clients there are and the client's own jobs
 /// come one after the other.
-double Schedule::shared_wait_s(const Job& job) const {
+double Schedule::own_wait_s(const Job& job) const {
   double own_s = 0.0;
   for (const Job* other : jobs_) {
     const bool is_ahead = other->client == job.client && other->state == State::waiting;
     if (is_ahead && precedes(*other, job)) own_s += expected_s(*other);
   }
   return own_s * static_cast<double>(clients_.size()) / static_cast<double>(size_.workers);
+}
+
+/// Returns the seconds until the job gets a turn that another one shares, after those that get it before;
+/// infinite if there is none for it.
+double Schedule::wait_to_share_s(const Job& job, Time now) const {
+  double least_s = std::numeric_limits<double>::infinity();
+  for (const Job* from : jobs_) {
+    const bool shares = shares_turns(from->need.kind) || from->need.kind == Kind::plan;
+    if (from->state != State::computing || !shares || !may_take_over(job, *from)) continue;
+    double wait_s = std::max(0.0, Seconds(kLongTurn - (now - from->since)).count());
+    for (const Job* other : jobs_) {
+      const bool is_ahead = other->state == State::waiting && other != &job && precedes(*other, job);
+      if (is_ahead && may_take_over(*other, *from)) {
+        wait_s += std::min(expected_s(*other), Seconds(kLongTurn).count());
+      }
+    }
+    least_s = std::min(least_s, wait_s);
+  }
+  return least_s;
 }
 
 /// Returns the seconds that `job` waits; null: a new job. Gives the turns, in their order, to the jobs that

@@ -26,6 +26,9 @@ namespace fleetplan::server {
 ///   as many jobs are paused or interrupted as there are workers, the turn goes only to one of these or, if
 ///   there is not one more, to a job that does not share its own: so jobs that share their turns do not keep
 ///   others out, however many they are.
+/// - **Large plans make room for small ones.** A job that takes long to its first plan gives its turn to one
+///   that plans for far fewer robots, or to a check that is expected to be short, and is the next to get a
+///   turn again. Plans of like size do not share: each would take as long as all of them.
 /// - **Order.** Turns go round the clients: next is the client with the fewest turns, then the one whose last
 ///   turn is the longest ago. Of a client's jobs, and of clients that have had no turn yet, the one with the
 ///   earliest deadline is next.
@@ -71,6 +74,7 @@ class Schedule {
     State state = State::accepted;
     bool in_lane = false;             // the turn it has is the lane's
     bool is_interrupted = false;      // it waits for another turn
+    Time::duration computed{};        // in turns before, of a plan
     Time due = Time::max();           // the earliest of a client's jobs comes first
     Time since = {};                  // begin of its turn
     Time latest_start = Time::max();  // the latest begin of a turn that is of use
@@ -93,8 +97,8 @@ class Schedule {
   /// Decides about a job that has its turn and a plan and is about to improve it.
   Improvement improve(Job& job, Time now);
 
-  /// Decides about a job that has its turn and is about to go on with what cannot end early. Returns the job
-  /// that has got its turn, for which this one waits now, or null if it goes on.
+  /// Decides about a job that is about to go on with what cannot end early. Returns the job that has got its
+  /// turn, for which this one waits now, or null if it goes on.
   Job* share(Job& job, Time now);
 
   /// Ends the wait of a job, which remains accepted.
@@ -130,8 +134,8 @@ class Schedule {
 
   bool precedes(const Job& a, const Job& b) const;
   Job* next(bool for_lane, Time now) const;
-  bool may_take_over(const Job& job) const;
-  Job* next_to_share(bool for_lane, Time now) const;
+  bool may_take_over(const Job& job, const Job& from) const;
+  Job* next_to_share(const Job& from, Time now) const;
   void grant(Job& job, bool lane, Time now);
   void take_back(Job& job);
   Job* hand_over(bool lane, Time now);
@@ -140,7 +144,8 @@ class Schedule {
   double remaining_s(const Job& job, Time now) const;
   double enough_s(const Job& job) const;
   double expected_wait_s(const Job* job, Time now) const;
-  double shared_wait_s(const Job& job) const;
+  double own_wait_s(const Job& job) const;
+  double wait_to_share_s(const Job& job, Time now) const;
 
   Size size_;
   std::vector<Job*> jobs_;                 // jobs in the order of their acceptance

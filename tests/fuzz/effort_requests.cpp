@@ -11,6 +11,7 @@
 
 #include "api/endpoints/endpoints.h"
 #include "api/request/limits.h"
+#include "tests/fuzz/effort_members.h"
 #include "tests/support/base64.h"
 
 namespace fleetplan::fuzz {
@@ -18,6 +19,8 @@ namespace fleetplan::fuzz {
 namespace {
 
 using Json = nlohmann::json;
+
+constexpr double kLeastRadius = 1e-4;  // of the API, metres
 
 template <typename Number>
 std::string name_of(char letter, Number number) {
@@ -130,7 +133,7 @@ Json zones_of(const Json& map, const Extent& extent, Choices& choices) {
     Json zone{{"id", name_of('z', k)}, {"polygon", star(x, y, size, corners)}};
     zone["type"] = choices.one_of(std::array{"blocked", "speed", "one_way"});
     if (zone["type"] == "speed") zone["linear_speed"] = choices.one_of(std::array{1e-3, 0.5, 1e3});
-    if (zone["type"] == "one_way") zone["heading"] = 0.5 * k;
+    if (zone["type"] == "one_way") zone.update({{"heading", 0.5 * k}, {"half_angle", 1.0}});
     if (zone["type"] == "blocked" && k % 2 == 1) zone["enter"] = false;
     zones.push_back(std::move(zone));
   }
@@ -141,7 +144,8 @@ Json obstacles_of(const Extent& extent, Choices& choices) {
   Json obstacles = Json::array();
   const int count = choices.up_to(300);
   const int entries = 1 + choices.up_to(150);
-  const double radius = std::min(extent.width, extent.height) * choices.one_of(std::array{1e-3, 0.1, 1.0});
+  const double radius = std::max(
+      kLeastRadius, std::min(extent.width, extent.height) * choices.one_of(std::array{1e-3, 0.1, 1.0}));
   for (int k = 0; k < count; ++k) {
     Json motion = Json::array();
     for (int entry = 0; entry < entries; ++entry) {
@@ -313,8 +317,7 @@ Json dependencies_of(const ToAndFro& fleet, Choices& choices) {
   const int every = 1 + choices.up_to(10);
   for (std::size_t robot = 0; robot + 1 < fleet.plans.size(); ++robot) {
     for (int leg = 1; leg < fleet.legs; leg += every) {
-      dependencies.push_back(
-          {{"gate", place(robot, leg)}, {"until", place(robot + 1, leg - 1)}, {"slack", 0.1}});
+      dependencies.push_back({{"gate", place(robot, leg)}, {"until", place(robot + 1, leg - 1)}});
     }
   }
   return dependencies;
@@ -400,8 +403,8 @@ Json matrix_of(const Json& request) {
   Json to = Json::array();
   for (const Json& robot : request["robots"]) {
     if (from.size() < kMost) from.push_back(robot["start"]);
-    if (to.size() == kMost || !robot.contains("goal")) continue;
-    const Json& goal = robot["goal"];
+    if (to.size() == kMost || !(robot.contains("goal") || robot.contains("goals"))) continue;
+    const Json& goal = robot.contains("goal") ? robot["goal"] : robot["goals"][0];
     const Json& pose = goal.contains("any_of") ? goal["any_of"][0] : goal;
     to.push_back({{"x", pose["x"]}, {"y", pose["y"]}});
   }
@@ -436,7 +439,8 @@ Effort planning_effort(Choices choices) {
   const int columns = 1 + choices.up_to(600);
   const int rows = 1 + choices.up_to(500);
   const auto resolution = choices.one_of(std::array{1.0, 0.05, 1e-3, 1000.0});
-  const auto radius = resolution * choices.one_of(std::array{0.3, 0.5, 0.49999, 1e-6, 3.0});
+  const auto radius =
+      std::max(2.0 * kLeastRadius, resolution * choices.one_of(std::array{0.3, 0.5, 0.49999, 1e-6, 3.0}));
   const Json lines = rows_of(columns, rows, choices);
   const int robots = 1 + choices.up_to(1999);
   Json request{
@@ -460,9 +464,15 @@ Effort planning_effort(Choices choices) {
   add_members(request, choices);
   const std::size_t count = request["robots"].size();
   const int kind = choices.up_to(3);
-  if (kind == 2) return {api::matrix_endpoint, false, matrix_of(request).dump(), count, steps, memory};
-  if (kind == 3)
-    return {api::assign_endpoint, false, tasks_of(request, choices).dump(), count, steps, memory};
+  if (kind == 2) {
+    add_files(request, choices);
+    return {api::matrix_endpoint, false, matrix_of(request).dump(), count, steps, memory};
+  }
+  if (kind == 3) {
+    Json body = tasks_of(std::move(request), choices);
+    add_files(body["request"], choices);
+    return {api::assign_endpoint, false, body.dump(), count, steps, memory};
+  }
   if (choices.yes()) {  // two sizes
     for (std::size_t k = 1; k < count; k += 2) request["robots"][k]["radius"] = 0.5 * radius;
   }
@@ -473,6 +483,8 @@ Effort planning_effort(Choices choices) {
     large["start"] = {{"x", 0.87 * extent.width}, {"y", 0.13 * extent.height}};
     if (large.contains("goal")) large["goal"] = {{"x", 0.13 * extent.width}, {"y", 0.13 * extent.height}};
   }
+  add_chosen_ways(request, choices);
+  add_files(request, choices);
   return {api::plan_endpoint, true, request.dump(), count, steps, memory};
 }
 
@@ -532,12 +544,17 @@ Effort execution_effort(Choices choices) {
     body["timestamp"] = "2026-01-31T12:00:00.000Z";
     body["dependencies"] = dependencies_of(fleet, choices);
     Json numbers = Json::object();
-    for (int k = choices.up_to(20'000); k > 0; --k) numbers[name_of('r', k)] = name_of('s', k);
+    const int most = choices.up_to(20'000);  // many: of robots that do not exist, too
+    const int names = most < 5000 ? std::min(most, static_cast<int>(effort.robots)) : most;
+    for (int k = 0; k < names; ++k) numbers[name_of('r', k)] = name_of('s', k);
     if (choices.yes()) body["manufacturers"] = numbers;
     if (choices.yes()) body["serial_numbers"] = std::move(numbers);
     if (choices.yes()) body["release_ahead"] = choices.one_of(std::array{0.1, 5.0, 1e8});
     if (choices.yes()) body["base"] = base_of(fleet, choices);
-    if (imports) body["messages"] = messages_of(fleet, choices);
+    if (imports) {
+      body["messages"] = messages_of(fleet, choices);
+      add_vehicle_members(body, choices);
+    }
   }
   effort.body = body.dump();
   effort.steps = choices.up_to(3000);

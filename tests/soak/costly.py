@@ -7,6 +7,7 @@ import gzip
 import json
 import math
 import os
+import random
 import struct
 import threading
 import time
@@ -85,16 +86,21 @@ def valid_or_unfinished(answer):
     return None if answer.status == 422 and answer.json()["code"] == "check_unfinished" else valid(answer)
 
 
-def answered_or_unfinished(member):
-    """An answer with this member, or a refusal after the time budget; and no long answer to a short request."""
+def answered_or_refused(member, *codes):
+    """An answer with this member, or a refusal with one of these codes; and no long answer to a short request."""
     def fault(answer):
         content = answer.json()
-        if answer.status == 422 and content["code"] in ("check_unfinished", "memory_exceeded"):
+        if answer.status == 422 and content["code"] in codes:
             return None
         if answer.status != 200 or member not in content:
             return f"{answer.status} {answer.body[:200]}"
         return f"an answer of {len(answer.body)} bytes" if len(answer.body) > 16 * MIB else None
     return fault
+
+
+def answered_or_unfinished(member):
+    """The same with a refusal after the time budget."""
+    return answered_or_refused(member, "check_unfinished", "memory_exceeded")
 
 
 # ---------------------------------------------------------------- requests
@@ -256,6 +262,38 @@ def neighbours(legs, length, as_committed=False, **options):
     return body if as_committed else {**body, "plans": plans}
 
 
+def many_equal_dependencies(count):
+    """Two robots in lanes of their own, of which one waits for the other, as often as a body has room."""
+    body = neighbours(1, 8)
+    dependency = {"gate": {"robot": "a", "action": 0, "progress": 0.5}, "until": {"robot": "b", "action": 0, "progress": 0.1}}
+    return {**body, "policy": "dependencies", "runs": 1, "dependencies": [dependency] * count, "options": {"time_budget_ms": 500}}
+
+
+def committed_moves_that_meet(pairs, legs):
+    """Pairs of robots that go to and fro towards each other, and meet at each leg."""
+    robots = []
+    for k in range(2 * pairs):
+        x, y, way = 4.0 * (k // 2 % 45) + 1.0, 2.0 * (k // 90) + 1.0, 1.0
+        if k % 2 == 1:
+            x, way = x + 2.5, -1.3
+        ends = [{"x": x, "y": y, "theta": 0}, {"x": x + way, "y": y, "theta": 0}]
+        robots.append({"id": f"r{k}", "start": ends[0], "may_reverse": True, "committed": [
+            {"type": "translate", "t_start": 2 * leg, "t_end": 2 * leg + 2, "from": ends[leg % 2], "to": ends[1 - leg % 2],
+             "reverse": (leg + k) % 2 == 1} for leg in range(legs)]})
+    return {"map": {"rows": ["." * 190] * (2 * (pairs // 45) + 4)}, "robots": robots, "robot_defaults": ROBOT,
+            "options": {"time_budget_ms": 1000}}
+
+
+def crowd(side, count, budget_ms):
+    """Robots at random in a free hall, which need a plan whatever the time."""
+    cells, chosen = [(x + 0.5, y + 0.5) for x in range(side) for y in range(side)], random.Random(2)
+    ways = zip(chosen.sample(cells, count), chosen.sample(cells, count))
+    robots = [{"id": f"r{k}", "start": {"x": start[0], "y": start[1]}, "goal": {"x": goal[0], "y": goal[1]}}
+              for k, (start, goal) in enumerate(ways)]
+    return {"map": {"rows": ["." * side] * side}, "robots": robots, "robot_defaults": {**ROBOT, "radius": 0.45},
+            "options": {"time_budget_ms": budget_ms}}
+
+
 def many_serial_numbers(members):
     """Serial numbers of robots that do not exist, for 2000 that do."""
     return {"version": "2.1.0", "map": {"rows": ["..."]}, "robot_defaults": ROBOT, "plans": [], "dependencies": [],
@@ -385,6 +423,10 @@ def costly_requests():
         Costly("check of 40,000 legs", posted(long_plan(40_000), "/v1/validate"), 5.0, 300, valid_or_unfinished),
         Costly("a check behind long plans", posted(long_plan(8), "/v1/validate"), 5.0, 300, valid,
                before=lambda: posted(endless(30_000))),
+        *(Costly(f"a small plan behind {name}", posted(crowd(40, 100, 5000)), 2.0, 600, planned(["solved"]),
+                 before=lambda data=data: data)
+          for name, data in (("large ones", posted(crowd(60, 2000, 15_000))),
+                             ("matrices", posted(travel_times_on_a_large_map(), "/v1/matrix")))),
         Costly("giants on a blocked map", posted(giants_on_a_blocked_map()), 1.0, 300,
                refused("invalid_request", "parse_unfinished")),
         *(Costly(f"2000 robots, 4 M cells, {budget_ms} ms", posted(crowd_on_a_large_map(budget_ms)), budget_ms / 1000,
@@ -419,6 +461,10 @@ def costly_requests():
         Costly("a plan with dependencies",
                posted(neighbours(600, 2000, True, execution_margin=0.1, dependencies=True, time_budget_ms=150)), 0.15, 300,
                answered_or_unfinished("dependencies")),
+        Costly("230,000 equal dependencies", posted(many_equal_dependencies(230_000), "/v1/simulate"), 0.5, 400,
+               answered_or_refused("runs", "parse_unfinished", "check_unfinished")),
+        Costly("200,000 committed moves", posted(committed_moves_that_meet(1000, 100)), 1.0, 500,
+               refused("invalid_request", "parse_unfinished")),
         Costly("a PNG that lies about its size", posted(image_map(1, 1, before=lying)), 0.1, 200, bad_image),
         Costly("a PNG with data behind it", posted(image_map(8, 4, behind=bytes(50 * MIB))), 0.1, 200, planned(["solved"])),
         Costly("a PNG of 1000 texts", posted(image_map(8, 4, inside=texts)), 0.1, 200, planned(["solved"])),

@@ -337,6 +337,25 @@ TEST(PlanEndpoint, ReportsFaultsWithoutWaitingForATurn) {
   EXPECT_EQ(turn.requests, 0);
 }
 
+TEST(PlanEndpoint, LetsOthersHaveItsTurnWhileItPlans) {
+  Json request = swap_request();
+  request["options"] = {{"time_budget_ms", 60'000}};
+  TestTurn turn;
+  int asked = 0;
+  turn.on_share = [&] { return ++asked < 3; };
+  RequestContext busy = context();
+  busy.turn = &turn;
+  const Planner slow = [](const auto& problem, const auto& options, const auto& stop, auto*) {
+    while (!stop.met()) std::this_thread::yield();
+    return core::plan(problem, options, stop);
+  };
+  const Json answer = json_of(plan_with(slow, request.dump(), busy));
+  EXPECT_EQ(asked, 3);
+  EXPECT_EQ(answer["status"], "none") << "the turn did not come back in time";
+  EXPECT_EQ(answer["unplanned"][0]["reason"], "budget_exhausted");
+  EXPECT_EQ(answer["verified"], true);
+}
+
 TEST(PlanEndpoint, GivesThePlannerTheRestOfTheBudget) {
   Json request = swap_request();
   request["options"] = {{"time_budget_ms", 60'000}, {"seed", 42}};

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/runtime/shared_turn.h"
 #include "tests/support/step_limit.h"
 
 namespace fleetplan::core {
@@ -34,6 +35,39 @@ TEST(StopCondition, HasItsCpuTimeHoweverLateItIs) {
   EXPECT_FALSE(other.met());
   source.request_stop();
   EXPECT_TRUE(other.met());
+}
+
+TEST(SharedTurn, EndsConditionsThatDoNotOutlastIt) {
+  bool goes_on = true;
+  int asked = 0;
+  SharedTurn turn(StopCondition(Clock::now() + std::chrono::hours(1)), [&] {
+    ++asked;
+    return goes_on;
+  });
+  const StopCondition stop = turn.stop();
+  EXPECT_FALSE(stop.met());
+  EXPECT_EQ(asked, 1);
+  EXPECT_FALSE(stop.met());
+  EXPECT_LE(asked, 2) << "not at every question";
+  goes_on = false;
+  EXPECT_FALSE(turn.share());
+  EXPECT_TRUE(stop.met());
+  EXPECT_TRUE(stop.is_over());
+  EXPECT_TRUE(stop.until(Clock::now() + std::chrono::minutes(1)).met());
+  const int so_far = asked;
+  EXPECT_FALSE(stop.until(Clock::now() + std::chrono::hours(2)).met()) << "for what is done at the end";
+  EXPECT_FALSE(stop.even_if_cancelled(Clock::now() + std::chrono::minutes(1)).met());
+  EXPECT_EQ(asked, so_far);
+}
+
+TEST(SharedTurn, IsMetWithTheConditionItIsMadeOf) {
+  support::StepLimit limit(1);
+  SharedTurn early(support::counted(limit), {});
+  SharedTurn late(StopCondition(Clock::now() - std::chrono::seconds(1)), {});
+  EXPECT_TRUE(late.stop().met());
+  const StopCondition stop = early.stop().until(Clock::now() + std::chrono::hours(1));
+  EXPECT_FALSE(stop.met());
+  EXPECT_TRUE(stop.met());
 }
 
 TEST(StopCondition, IsMetOnceAStopIsRequested) {

@@ -149,7 +149,9 @@ TEST(TravelTimes, EndWithTheStopOrTheTurn) {
   CallerThread executor;
   const TravelQuestions questions{{false}, {{{Position(2.5, 2.5), std::nullopt}, {0}}}};
   EXPECT_FALSE(travel_times(problem, {}, questions, met(), executor, {}));
-  EXPECT_FALSE(travel_times(problem, {}, questions, StopCondition::never(), executor, [] { return false; }));
+  const StopCondition unmet(StopCondition::Clock::time_point::max());
+  EXPECT_TRUE(travel_times(problem, {}, questions, unmet, executor, [] { return true; }));
+  EXPECT_FALSE(travel_times(problem, {}, questions, unmet, executor, [] { return false; }));
 }
 
 using support::make_problem;

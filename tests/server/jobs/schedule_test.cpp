@@ -48,6 +48,13 @@ class Schedules : public testing::Test {
     return job;
   }
 
+  /// A job for so many robots that has asked for its turn.
+  Job& planning(double robots, Schedule::Time::duration budget = 1h, Kind kind = Kind::plan) {
+    Job& job = accepted();
+    EXPECT_EQ(schedule.request_turn(job, {kind, now + budget, robots, false}, now), std::nullopt);
+    return job;
+  }
+
   /// Jobs that take this long each end one after the other, so that such times are expected.
   void learn(Schedule::Time::duration each, int count = 100) {
     for (int k = 0; k < count; ++k) {
@@ -215,7 +222,7 @@ TEST_F(Schedules, EndImprovementsBeyondOnePausedPerWorker) {
 }
 
 TEST_F(Schedules, ShareLongTurnsWithThoseThatWait) {
-  Job& simulation = asking();
+  Job& simulation = sharing(Kind::simulation);
   now += Schedule::kLongTurn;
   EXPECT_EQ(schedule.share(simulation, now), nullptr) << "nobody waits";
   Job& plan = asking(2s);
@@ -259,6 +266,66 @@ TEST_F(Schedules, GiveSharedTurnsToJobsThatWaitForTheirFirst) {
   now += Schedule::kLongTurn;
   EXPECT_EQ(schedule.share(first, now), &plan);
   EXPECT_EQ(schedule.leave(plan, now), &second);
+}
+
+TEST_F(Schedules, GiveSmallPlansTheTurnsOfLargeOnes) {
+  Job& large = planning(1000.0);
+  Job& other = planning(1000.0);
+  Job& small = planning(250.0, 5s);
+  now += Schedule::kLongTurn / 2;
+  EXPECT_EQ(schedule.share(large, now), nullptr) << "its turn is short so far";
+  now += Schedule::kLongTurn;
+  EXPECT_EQ(schedule.share(large, now), &small);
+  EXPECT_EQ(schedule.paused(), 1U);
+  EXPECT_EQ(schedule.leave(small, now), &large) << "though others wait for their first turn";
+  now += Schedule::kLongTurn;
+  EXPECT_EQ(schedule.share(large, now), nullptr) << "a plan of its size waits";
+  EXPECT_EQ(schedule.improve(large, now).has_turn, &other);
+  EXPECT_EQ(schedule.leave(other, now), &large);
+  planning(100.0, 5s);
+  now += Schedule::kLongTurn;
+  EXPECT_EQ(schedule.share(large, now), nullptr) << "it has a plan, and is asked between two steps";
+}
+
+TEST_F(Schedules, ShareTheTurnOfASmallPlanThatTakesLongWithTheLargeOneThatMadeRoom) {
+  Job& large = planning(1000.0);
+  Job& small = planning(100.0, 5s);
+  now += Schedule::kLongTurn;
+  EXPECT_EQ(schedule.share(large, now), &small);
+  Job& smaller = planning(20.0, 5s);
+  now += Schedule::kLongTurn;
+  EXPECT_EQ(schedule.share(small, now), &smaller) << "it asks for its first turn";
+  EXPECT_EQ(schedule.paused(), 2U);
+  Job& smallest = planning(5.0, 5s);
+  now += Schedule::kLongTurn;
+  EXPECT_NE(schedule.share(smaller, now), &smallest) << "one is paused more than there are workers";
+}
+
+TEST_F(Schedules, LearnAllTheTimeOfPlansThatMadeRoom) {
+  Job& large = planning(1000.0);
+  now += 1s;
+  Job& small = planning(100.0, 10s);
+  schedule.share(large, now);
+  schedule.leave(small, now);
+  now += 2s;
+  schedule.leave(large, now);
+  asking();
+  Job& like_it = accepted();
+  EXPECT_EQ(schedule.request_turn(like_it, {Kind::plan, now + 4s, 1000.0, false}, now), Refusal::too_late);
+}
+
+/// However long others have had their turns, they give them away.
+TEST_F(Schedules, RefuseNobodyForLongTurnsThatAreShared) {
+  for (const Kind kind : {Kind::simulation, Kind::travel, Kind::plan}) {
+    use({2, 100, 0});
+    for (int k = 0; k < 2; ++k) planning(1000.0, 1h, kind);
+    now += 10s;
+    Job& plan = accepted();
+    EXPECT_EQ(schedule.request_turn(plan, {Kind::plan, now + 1s, 100.0, false}, now), std::nullopt);
+    Job& like_them = accepted();
+    EXPECT_EQ(schedule.request_turn(like_them, {Kind::plan, now + 1s, 1000.0, false}, now),
+              kind == Kind::plan ? std::optional(Refusal::too_late) : std::nullopt);
+  }
 }
 
 /// Whatever number of simulations and travel times there is, of one client or of several: every plan gets its
