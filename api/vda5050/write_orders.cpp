@@ -260,7 +260,7 @@ class Cancellations {
     json.key("instant_actions");
     begin_message(json, request_.header, request_.vehicles[robot], id);
     json.key("actions").begin_array().begin_object().member("actionType", "cancelOrder");
-    json.member("actionId", order_id + "-" + std::to_string(id) + "-cancel").member("blockingType", "HARD");
+    json.member("actionId", order_id + "-" + std::to_string(id) + "-cancel").member("blockingType", "NONE");
     json.key("actionParameters").begin_array();
     if (is_v3(request_.header)) write_parameter(json, "orderId", order_id);
     json.end_array().end_object().end_array().end_object();

@@ -63,7 +63,9 @@ class Vehicle:
         messages, self.inbox = self.inbox, []
         for message in messages:
             if message.topic == "instantActions":
-                self._cancel(message.body["actions"][0]["actionId"])
+                action = message.body["actions"][0]
+                if action["blockingType"] == "NONE":  # 3.0.0 has no other; others wait for what they are to end
+                    self._cancel(action["actionId"])
             else:
                 self._take(message.body)
 

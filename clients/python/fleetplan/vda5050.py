@@ -159,7 +159,7 @@ class VdaLoop(PlanningLoop):
             return []
         action_id = f"{order['orderId']}-{order['orderUpdateId']}-cancel"
         parameters = [{"key": "orderId", "value": order["orderId"]}] if self._header["version"] == "3.0.0" else []
-        body = {"actions": [{"actionType": "cancelOrder", "actionId": action_id, "blockingType": "HARD",
+        body = {"actions": [{"actionType": "cancelOrder", "actionId": action_id, "blockingType": "NONE",
                              "actionParameters": parameters}]}
         self._begin_cancel(robot, action_id, reason)
         return [self._message(robot, "instantActions", body)]

@@ -65,10 +65,11 @@ TEST(LiveOrders, AreCancelledIfThePlanTurnsOffBeforeTheEndOfTheirBase) {
   EXPECT_EQ(cancelled["instant_actions"]["serialNumber"], "a");
   EXPECT_EQ(cancelled["instant_actions"]["actions"][0].dump(),
             R"({"actionType":"cancelOrder","actionId":"a-2026-11-23T12:00:00.000Z-0-cancel",)"
-            R"("blockingType":"HARD","actionParameters":[]})");
+            R"("blockingType":"NONE","actionParameters":[]})");
   hall.body["version"] = "3.0.0";
-  EXPECT_EQ(hall.exported()["cancel_orders"][0]["instant_actions"]["actions"][0]["actionParameters"].size(),
-            1U);
+  const Json action = hall.exported()["cancel_orders"][0]["instant_actions"]["actions"][0];
+  EXPECT_EQ(action["actionParameters"].size(), 1U);
+  EXPECT_EQ(action["blockingType"], "NONE") << "the only one that 3.0.0 has for instant actions";
 }
 
 TEST(LiveOrders, AreCancelledIfTheirBaseHasAClosedGate) {
