@@ -15,7 +15,7 @@ from fleetplan.errors import FleetplanError, InvalidValue, MessageRejected, Plan
 from fleetplan.executor import Executor, Instruction, Report
 from fleetplan.faults import OnFault
 from fleetplan.planning_loop import PlanningLoop, unforeseen
-from fleetplan.types import AdvanceAnswer, Hold, MeasuredPose, NewGoals, PlanAnswer, PlanOptions, PlanRequest
+from fleetplan.types import AdvanceAnswer, Hold, MeasuredPose, NewGoals, PlanAnswer, PlanOptions, PlanRequest, Plans
 
 # What a fleet needs that is planned again and again while its robots are late and a little beside their paths: slack
 # between robots in time and space, starts that may be measured too near to something, and no more than the next seconds
@@ -159,11 +159,15 @@ class FleetLoop(PlanningLoop):
         holds += [{"robot": entry["robot"], "until": 0.0} for entry in self.answer["unplanned"]
                   if entry["reason"] == "invalid" and entry["robot"] not in self._holds]
         goals: list[NewGoals] = [{"robot": robot, "goals": given} for robot, given in self._given.items()]
-        at = {"at": now - executor.start, "commit": self._commit, "pose_tolerance": self._pose_tolerance}
-        advance = functools.partial(self._client.advance, self.request, what_is_given(self.answer), **at)
-        standing = functools.partial(self._client.advance, self.request, {"plans": []}, **at)
+        request, at = self.request, now - executor.start
+
+        def advance_by(plans: Plans) -> Callable[..., AdvanceAnswer]:
+            return functools.partial(self._client.advance, request, plans, at, commit=self._commit,
+                                     pose_tolerance=self._pose_tolerance)
+
+        advance, standing = advance_by(what_is_given(self.answer)), advance_by({"plans": []})
         parts = {"states": executor.states(now), "poses": executor.poses(now), "holds": holds, "goals": goals}
-        return functools.partial(self._next_request, advance, standing, self.request, parts, executor.last_poses())
+        return functools.partial(self._next_request, advance, standing, request, parts, executor.last_poses())
 
     def _next_request(self, advance: Callable[..., AdvanceAnswer], standing: Callable[..., AdvanceAnswer],
                       request: PlanRequest, parts: dict[str, list[Any]], poses: list[MeasuredPose]) -> AdvanceAnswer:
