@@ -166,7 +166,8 @@ class FleetLoop(PlanningLoop):
                                      pose_tolerance=self._pose_tolerance)
 
         advance, standing = advance_by(what_is_given(self.answer)), advance_by({"plans": []})
-        parts = {"states": executor.states(now), "poses": executor.poses(now), "holds": holds, "goals": goals}
+        parts: dict[str, list[Any]] = {"states": executor.states(now), "poses": executor.poses(now), "holds": holds,
+                                       "goals": goals}
         return functools.partial(self._next_request, advance, standing, request, parts, executor.last_poses())
 
     def _next_request(self, advance: Callable[..., AdvanceAnswer], standing: Callable[..., AdvanceAnswer],

@@ -396,8 +396,8 @@ class VdaLoop(PlanningLoop):
                                  for robot, given in self._given.items()]
         # Where one that cannot go on is measured does not matter as long as it may still drive what is released.
         bound = {entry["robot"] for entry in base} & (out.keys() | self._cancels.keys())
-        parts = {"states": [unmeasured(state) if state["robot"] in bound else state for state in states["states"]],
-                 "poses": states["poses"], "goals": goals}
+        measured = [unmeasured(state) if state["robot"] in bound else state for state in states["states"]]
+        parts: dict[str, list[Any]] = {"states": measured, "poses": states["poses"], "goals": goals}
         advance = functools.partial(self._client.advance, plan.request, what_is_given(plan.answer), now - plan.begin)
         waiting = {**plan.aside, **{robot: given for robot, given in self._given.items() if robot in out}}
         return functools.partial(self._next_plan, plan, advance, parts, base, out, waiting, now)
