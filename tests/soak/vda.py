@@ -403,9 +403,10 @@ def main():
         soak = Soak(client, arguments.robots, version, arguments.seed + number)
         end = time.monotonic() + 60.0 * arguments.minutes / len(turns)
         soak.run(lambda now, end=end: now >= arguments.seconds if arguments.seconds else time.monotonic() >= end)
-        print(f"VDA 5050 {version}, seed {arguments.seed + number}, ", end="")
+        turn = f"VDA 5050 {version}, seed {arguments.seed + number}"
+        print(f"{turn}, ", end="")
         soak.print_report()
-        failures += soak.failures[:MOST_FAILURES]
+        failures += [f"{turn}, {failure}" for failure in soak.failures[:MOST_FAILURES]]
         client.close()
     if not server.alive():
         failures.append("the server ended")
