@@ -220,7 +220,8 @@ bool must_not_count(const Json& message, const Json& sent) {
     return message.value(key, Json()).is_string() ? message[key].get<std::string>() : "";
   };
   const std::string mode = text("operatingMode");
-  if (Json(text("orderId")) != sent["orderId"] || message.value("orderUpdateId", Json()) != sent["orderUpdateId"])
+  if (Json(text("orderId")) != sent["orderId"] ||
+      message.value("orderUpdateId", Json()) != sent["orderUpdateId"])
     return true;
   if (!mode.empty() && mode != "AUTOMATIC" && mode != "SEMIAUTOMATIC") return true;
   const Json position = message.value("agvPosition", Json());
