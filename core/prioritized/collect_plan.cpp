@@ -155,11 +155,11 @@ namespace {
 
 /// Seconds; smaller waits are rounding. Far below the tolerances of the verifier.
 constexpr double kNegligible = 1e-12;
-/// Seconds: rounding of the end of a rotation before a move or a visit.
+/// Seconds: rounding of the end of a rotation before a visit.
 constexpr double kRounding = 1e-9;
 
-/// Where the search has less than kLeastAction, the robot is there, or as good as turned; a wait takes
-/// longer.
+/// Where the search has less than kLeastAction, the robot is there, or as good as turned. A wait of less
+/// belongs to the action before it; a service, or a wait behind committed actions, takes longer.
 class ActionList {
  public:
   /// Begins with the committed actions.
@@ -180,7 +180,7 @@ class ActionList {
   }
   /// Rotates to a heading, then waits until `t_end`.
   void rotate_and_wait(double theta, double t_end) {
-    rotate(theta, t_end, kRounding);
+    rotate(theta, t_end, kNegligible);
     wait(t_end, {});
   }
   /// Rests in the pose of a goal, and waits there until its service ends.
@@ -205,7 +205,12 @@ class ActionList {
   }
   void wait(double t_end, std::optional<std::size_t> goal) {
     if (t_end - now_ <= kNegligible) return;
-    append(Action::Type::wait, t_end - now_ < kLeastAction ? now_ + kShortestWait : t_end, pose_, goal);
+    const bool is_too_short = t_end - now_ < kLeastAction;
+    if (is_too_short && !goal && !is_at_committed_end()) {
+      actions_.back().t_end = now_ = t_end;
+    } else {
+      append(Action::Type::wait, is_too_short ? now_ + kShortestWait : t_end, pose_, goal);
+    }
   }
   std::vector<Action> take() { return std::move(actions_); }
 

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/geometry/tolerance.h"
 #include "core/map/occupancy_grid.h"
 #include "core/model/plan.h"
 #include "core/model/plan_options.h"
@@ -21,9 +20,8 @@
 
 namespace fleetplan::support {
 
-/// Metres: what the search subtracts from distances, for both disks, and what a robot at 1 m/s may be late
-/// where a shorter wait was lengthened to the least one.
-inline constexpr double kSafeTolerance = 2.0 * core::kSearchSlack + core::kShortestWait;
+/// Metres: the contact tolerance of the service, and the rounding of times and positions.
+inline constexpr double kSafeTolerance = 2e-9;
 
 /// The tolerances of the service for robots with actions of the request or among moving obstacles, which they
 /// may touch, and kSafeTolerance for others.
