@@ -216,7 +216,7 @@ class Travelling {
   const core::StopCondition& stop() const { return *stop_; }
   core::Executor& executor() { return context_.executor != nullptr ? *context_.executor : callers_thread_; }
   std::function<bool()> go_on() const {
-    return [turn = context_.turn] { return turn == nullptr || turn->let_others(); };
+    return [turn = context_.turn] { return share_turn(turn); };
   }
 
   /// Keeps the reply that the time did not suffice, and returns nothing. `what` and `fewer`: see
@@ -370,9 +370,9 @@ Runs run_all(const core::SimulatedFleet& fleet, const SimulateRequest& request,
   Runs runs;
   std::atomic<bool> any_done = false;
   core::SharedTurn turn(stop, [&] {
-    if (!any_done || context.turn == nullptr) return true;
+    if (!any_done) return true;
     const auto before = RequestContext::Clock::now();
-    const bool goes_on = context.turn->let_others();
+    const bool goes_on = share_turn(context.turn);
     runs.waited += RequestContext::Clock::now() - before;
     return goes_on;
   });

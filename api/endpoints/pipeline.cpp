@@ -61,6 +61,8 @@ bool take_turn(Turn* turn, const TurnNeed& need, core::Work& work) {
   return turn == nullptr || (turn->request(need) && turn->await());
 }
 
+bool share_turn(Turn* turn) { return turn == nullptr || turn->let_others(); }
+
 double work_of(std::size_t robots, const std::vector<core::RobotPlan>& plans) {
   std::size_t work = robots;
   for (const core::RobotPlan& plan : plans) work += plan.actions.size();

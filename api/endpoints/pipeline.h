@@ -40,6 +40,10 @@ Reply out_of_memory(const std::string& request_id);
 /// without a Turn.
 bool take_turn(Turn* turn, const TurnNeed& need, core::Work& work);
 
+/// Lets others have the turn, see Turn::let_others. Returns whether it came back; true at once without a
+/// Turn.
+bool share_turn(Turn* turn);
+
 /// Returns the TurnNeed::work of plans that are to be checked or executed.
 double work_of(std::size_t robots, const std::vector<core::RobotPlan>& plans);
 

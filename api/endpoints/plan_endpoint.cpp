@@ -395,7 +395,7 @@ Reply planned(const Planner& planner, std::string_view body, const RequestContex
   }
   core::CallerThread callers_thread;
   core::Executor& executor = context.executor != nullptr ? *context.executor : callers_thread;
-  core::SharedTurn turn(stop, [&] { return context.turn == nullptr || context.turn->let_others(); });
+  core::SharedTurn turn(stop, [&] { return share_turn(context.turn); });
   const core::StopCondition shared = turn.stop();
   const bool is_chosen = choose_poses_by_arrival(*request, shared, executor);
   const auto plan_with_poses = [&](const PlanRequest& one) {
