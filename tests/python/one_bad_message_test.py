@@ -13,7 +13,7 @@ from support import PROJECT, Answers, service
 
 from fleetplan import Client, FleetLoop, FleetplanError, Report, RequestRefused
 from fleetplan.course import goals_of
-from fleetplan.errors import InvalidValue, MessageRejected
+from fleetplan.errors import InvalidAnswer, InvalidValue, MessageRejected
 from fleetplan.vda5050 import VdaLoop
 from fleetplan.vehicle_states import state_on
 
@@ -251,6 +251,23 @@ class Spoils:
         return answer
 
 
+class Loses:
+    """A client of which all answers of one kind are damaged while it is on."""
+
+    def __init__(self, client, name, damage):
+        self.client, self.name, self.damage, self.is_on = client, name, damage, True
+
+    def __getattr__(self, name):
+        method = getattr(self.client, name)
+
+        def called(*arguments, **members):
+            answer = method(*arguments, **members)
+            if self.is_on and name == self.name:
+                self.damage(answer)
+            return answer
+        return called
+
+
 class Vehicles(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -311,6 +328,31 @@ class Vehicles(unittest.TestCase):
         self.assertGreater(client.count, 5)
         self.assertIsNone(day.loop.failure)
         self.assertGreater(len(day.arrived), arrived)
+
+    def test_answers_that_lose_what_others_rely_on_are_none(self):
+        cases = {"plan": [lambda answer: answer.update(tight=None)],
+                 "advance": [lambda answer: answer.update(options={}),
+                             lambda answer: answer["options"].update(time_budget_ms=7)],
+                 "import_vda5050": [lambda answer: answer["progress"][0].update(order_id=None),
+                                    lambda answer: answer["progress"][0].update(order_id="x"),
+                                    lambda answer: answer["progress"].pop(0)]}
+        for name, damages in cases.items():
+            for damage in damages:
+                client = Loses(self.client, name, damage)
+                day = vda5050_test.Day(client, 6)
+                client.is_on = False
+                day.run(6.0)
+                client.is_on = True
+                rounds, orders = day.loop.rounds, {vehicle.order_id for vehicle in day.vehicles.values()}
+                day.run(12.0)
+                with self.subTest(name):
+                    self.assertIsInstance(day.loop.failure, InvalidAnswer)
+                    self.assertEqual(day.loop.rounds, rounds)
+                    self.assertEqual({vehicle.order_id for vehicle in day.vehicles.values()}, orders)
+                    client.is_on = False
+                    day.run(24.0)
+                    self.assertIsNone(day.loop.failure)
+                    self.assertEqual((day.refused, day.met), ([], ([], [])))
 
     def test_a_vehicle_that_never_reports_stops_nobody_for_long(self):
         day = vda5050_test.Day(self.client, 6, wait=3.0)

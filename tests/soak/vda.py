@@ -39,7 +39,7 @@ from geometry import closest_of_paths  # noqa: E402
 from replay import Walls  # noqa: E402
 from report import verdict  # noqa: E402
 from server import Server  # noqa: E402
-from vehicles import STEP_S, Vehicle, rubbish  # noqa: E402
+from vehicles import ON_NODE_M, STEP_S, Vehicle, rubbish  # noqa: E402
 
 CONTACT_M = 1e-4  # rounding of what is driven
 RELEASED_M = 1e-3  # the same, of ways that are released
@@ -48,6 +48,7 @@ SETTLES_S = 30.0  # after it was disturbed
 LONGEST_STAND_S = 240.0  # without a reason
 LAST_S = 900.0  # in which all is served in the end
 ANSWERS_LOST = 0.002  # the share
+SPOILED = [None, "x", math.nan, 1e300, [], {}, True]
 PUSHED_M = 1.5
 TURN_MIN = 10.0  # with the same fleet
 MOST_FAILURES = 20
@@ -57,8 +58,9 @@ MAKE = "acme"
 class Flaky:
     """A client whose answers are sometimes lost, or none of the service."""
 
-    def __init__(self, client, dice, counts):
-        self.client, self.dice, self.counts, self.is_quiet = client, dice, counts, False
+    def __init__(self, client, dice, counts, clock):
+        self.client, self.dice, self.counts, self.clock, self.is_quiet = client, dice, counts, clock, False
+        self.last = "none"  # that was lost or wrong
 
     def __getattr__(self, name):
         method = getattr(self.client, name)
@@ -68,26 +70,31 @@ class Flaky:
             if self.is_quiet or self.dice.random() >= ANSWERS_LOST:
                 return answer
             self.counts["answers lost or wrong"] += 1
+            self.last = f"{name} at {self.clock():.1f} s"
             if self.dice.random() < 0.3:
                 raise ConnectionFailed("lost")
-            return spoiled(answer, self.dice)
+            wrong, where = spoiled(answer, self.dice)
+            self.last += f", {where}"
+            return wrong
         return called
 
 
 def spoiled(answer, dice):
-    """The answer with one value changed, so that it is none of the service."""
-    whole = copy.deepcopy(answer)
+    """The answer with one value of another type, so that it is none of the service, and where. (Of the same type it could
+    be one: nobody can tell that a plan without dependencies had some.)"""
+    whole, where = copy.deepcopy(answer), ""
     at, depth = whole, dice.randrange(4)
     while True:
         names = list(at) if isinstance(at, dict) else list(range(len(at)))
         if not names:
-            return {}
+            return {}, "all"
         name = dice.choice(names)
+        where += f"/{name}"
         if depth > 0 and isinstance(at[name], dict | list):
             at, depth = at[name], depth - 1
             continue
-        at[name] = dice.choice([None, "x", math.nan, 1e300, [], {}, True])
-        return whole
+        at[name] = dice.choice([value for value in SPOILED if type(value) is not type(at[name])])
+        return whole, f"{where} = {at[name]!r}"
 
 
 class Soak:
@@ -105,7 +112,7 @@ class Soak:
         self.fine_since = dict.fromkeys(self.vehicles, 0.0)
         self.longest_stand, self.told = 0.0, collections.Counter()
         self.digest = hashlib.sha256()
-        self.client = Flaky(client, self.dice, self.counts)
+        self.client = Flaky(client, self.dice, self.counts, lambda: self.now)
         self.loop = VdaLoop(self.client, self.request, manufacturer=MAKE, version=version, map_id="hall",
                             clock=lambda: self.now, background=False,
                             on_fault=lambda fault: self.told.update([type(fault).__name__]))
@@ -120,6 +127,7 @@ class Soak:
             vehicle.read()
             if vehicle.order_id not in ("", before):
                 self.displaced.discard(vehicle.name)
+        self.undo_disturbances()
         if disturbs:
             self.disturb()
         try:
@@ -165,15 +173,17 @@ class Soak:
                 self.loop.give(name, goals)
 
     def fail(self, what):
-        self.failures.append(f"{self.now:.1f} s: {what}")
+        self.failures.append(f"{self.now:.1f} s: {what} (the last answer that was lost or wrong: {self.client.last})")
 
     # ---------------------------------------------------------------- disturbances
 
-    def disturb(self):
+    def undo_disturbances(self):
         for name, (end, undo) in list(self.undo.items()):
             if self.now >= end:
                 del self.undo[name]
                 undo()
+
+    def disturb(self):
         for vehicle in self.vehicles.values():
             if vehicle.name in self.undo or self.now < 5.0:
                 self.fine_since[vehicle.name] = self.now + SETTLES_S
@@ -223,24 +233,36 @@ class Soak:
             self.counts["restarts"] += 1
             vehicle.forget()
 
-    def push(self, vehicle):
+    def take_over(self, vehicle):
         self.until(vehicle, "driven by hand", lambda: setattr(vehicle, "mode", "AUTOMATIC"))
         vehicle.mode = "MANUAL"
         vehicle.drop()
+
+    def push(self, vehicle):
+        self.take_over(vehicle)
         if self.dice.random() < 0.3 and self.has_told_all(vehicle):
             vehicle.forget()
-        angle, far = self.dice.uniform(-math.pi, math.pi), self.dice.uniform(0.1, PUSHED_M)
+        self.move_by_hand(vehicle, self.dice.uniform(0.1, PUSHED_M), [])
+
+    def part(self, vehicle, other):
+        """Two that have met stand there until somebody moves one of them."""
+        if not (vehicle.legs or other.legs or vehicle.name in self.undo):
+            self.take_over(vehicle)
+            self.move_by_hand(vehicle, self.dice.uniform(0.5, PUSHED_M), [other])
+
+    def move_by_hand(self, vehicle, far, met):
+        angle = self.dice.uniform(-math.pi, math.pi)
         x, y = vehicle.pose["x"] + far * math.cos(angle), vehicle.pose["y"] + far * math.sin(angle)
-        if self.is_free(vehicle, x, y):
+        if self.is_free(vehicle, x, y, met):
             self.counts["pushed"] += 1
             self.displaced.add(vehicle.name)
             vehicle.push = x, y, 12
 
-    def is_free(self, vehicle, x, y):
-        """Whether nobody is in the way, or will be by what is released now."""
+    def is_free(self, vehicle, x, y, met):
+        """Whether nobody is in the way, or will be by what is released now; those that it has met, at its end."""
         way = [(vehicle.pose["x"], vehicle.pose["y"]), (x, y)]
         return self.walls.clearance(*way[0], *way[1], vehicle.radius) >= vehicle.radius and all(
-            apart(way, other.stretch()) >= vehicle.radius + other.radius + 0.1
+            apart([(x, y)] if other in met else way, released_to(other)) >= vehicle.radius + other.radius + 0.1
             for other in self.vehicles.values() if other is not vehicle)
 
     def stop(self, vehicle):
@@ -293,6 +315,7 @@ class Soak:
             if closest_of_paths(paths[a.name], paths[b.name])[0] < least - CONTACT_M:
                 if {a.name, b.name} & self.displaced:
                     self.counts["steps in which one that was pushed was met"] += 1
+                    self.part(*((a, b) if a.name in self.displaced else (b, a)))
                 else:
                     self.fail(f"{a.name} and {b.name} have met")
 
@@ -345,10 +368,15 @@ class Soak:
 
 
 def released_to(vehicle):
-    """Where it may drive once it has read what it was sent; each order begins where the one before it ends."""
-    bases = [node["nodePosition"] for sent in vehicle.inbox if sent.topic == "order"
-             for node in sent.body["nodes"] if node["released"]]
-    return [*vehicle.stretch(), *((place["x"], place["y"]) for place in bases)]
+    """Where it may drive once it has read what it was sent. It refuses an order that does not begin where the one before
+    ends: that was cleared."""
+    way = vehicle.stretch()
+    for sent in vehicle.inbox:
+        places = [node["nodePosition"] for node in sent.body.get("nodes", []) if node["released"]]
+        base = [(place["x"], place["y"]) for place in places]
+        if base and math.dist(base[0], way[-1]) <= ON_NODE_M:
+            way += base
+    return way
 
 
 def apart(way, other):

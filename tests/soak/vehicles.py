@@ -6,7 +6,7 @@ import math
 import random
 
 STEP_S = 0.2
-_ON_NODE = 0.02  # metres
+ON_NODE_M = 0.02
 
 
 class Vehicle:
@@ -115,7 +115,7 @@ class Vehicle:
             return "busy"
         position = first["nodePosition"]
         away = math.hypot(position["x"] - self.pose["x"], position["y"] - self.pose["y"])
-        return None if away <= _ON_NODE else f"begins {away:.3f} m away"
+        return None if away <= ON_NODE_M else f"begins {away:.3f} m away"
 
     def _warn(self, kind, references):
         level = "WARNING"

@@ -1,6 +1,6 @@
 """Whether answers are what the service answers: the loops go on with nothing else, as the next request contains it."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NoReturn, NotRequired, TypedDict
 
 from fleetplan.course import goals_of, turned, whole
@@ -12,6 +12,7 @@ from fleetplan.types import (Action, ActionPlace, ActionProgress, AdvanceAnswer,
 
 _SAME = 1e-4  # metres, radians or seconds: what ends of actions are apart by rounding, at most
 _SAME_PROGRESS = 1e-9
+_RAISED = ("start_overlap", "invalid_robots")  # options that change if robots could not be where they are otherwise
 
 
 class _Plan(TypedDict):
@@ -79,6 +80,8 @@ def check_plan(request: PlanRequest, answer: PlanAnswer) -> None:
         robot = robots[plan["robot"]]
         actions[plan["robot"]] = plan["actions"]
         _check_actions(plan["robot"], robot["start"], plan["actions"], len(goals_of(robot)))
+    if (answer.get("dependencies") is None) != (answer.get("tight") is None):
+        _fail("has dependencies without tight pairs, or the other way round")
     for dependency in answer.get("dependencies") or []:
         for place in (dependency["gate"], dependency["until"]):
             _check_place(actions, place["robot"], place)
@@ -95,8 +98,12 @@ def check_dependencies(request: PlanRequest, answer: PlanAnswer, made: Mapping[s
 
 
 def check_advance(request: PlanRequest, answer: AdvanceAnswer) -> None:
-    """Whether it is a request for the same robots."""
+    """Whether it is a request for the same robots, with the options of the one before."""
     _shape(answer, _Advance)
+    options: Mapping[str, object] = answer["options"]
+    for name, value in request.get("options", {}).items():
+        if name not in options or name not in _RAISED and options[name] != value:
+            _fail(f"is a request with other options: {shown(name)}")
     names = [robot["id"] for robot in request["robots"]]
     if [robot["id"] for robot in answer["robots"]] != names:
         _fail("is a request for other robots")
@@ -109,7 +116,8 @@ def check_advance(request: PlanRequest, answer: AdvanceAnswer) -> None:
             _fail("has the progress of other robots")
 
 
-def check_states(request: PlanRequest, answer: Vda5050States) -> None:
+def check_states(request: PlanRequest, progress: Iterable[OrderProgress], answer: Vda5050States) -> None:
+    """Whether robots of the request report, and each order of the progress before goes on or has ended."""
     _shape(answer, _States)
     names = {robot["id"] for robot in request["robots"]}
     lists: list[Sequence[Mapping[str, Any]]] = [answer["states"], answer["poses"], answer["progress"], answer["vehicles"]]
@@ -117,6 +125,10 @@ def check_states(request: PlanRequest, answer: Vda5050States) -> None:
         told = [entry["robot"] for entry in entries]
         if len(set(told)) < len(told) or not set(told) <= names:
             _fail("names robots twice, or others than the request")
+    told_orders = {entry["robot"]: entry.get("order_id") or entry.get("ended_order_id") for entry in answer["progress"]}
+    for entry in progress:
+        if "order_id" in entry and told_orders.get(entry["robot"]) != entry["order_id"]:
+            _fail(f"does not tell of the order of {shown(entry['robot'])}")
 
 
 def check_orders(request: PlanRequest, answer: Vda5050Answer) -> None:

@@ -222,7 +222,7 @@ class VdaLoop(PlanningLoop):
                 found = self._client.import_vda5050(plan.request, self._given_plans(plan), list(reported.values()),
                                                     timestamp=plan.timestamp, base=plan.base,
                                                     progress=list(plan.progress.values()), **self._header)
-                check_states(plan.request, found)
+                check_states(plan.request, plan.progress.values(), found)
                 return found
             except RequestRefused as error:
                 refused = {robots[int(index)]: fault.detail for fault in error.faults
