@@ -9,6 +9,7 @@
 #include <utility>
 #include <variant>
 
+#include "core/geometry/elementary_functions.h"
 #include "core/geometry/position.h"
 #include "core/geometry/speed_profile.h"
 #include "core/geometry/tolerance.h"
@@ -123,7 +124,7 @@ const char* impossible(const core::Action& action, const core::Robot& robot, con
     return "is faster than the robot";
   }
   const core::Position d = action.to.position - action.from.position;
-  const core::Position heading(std::cos(action.from.theta), std::sin(action.from.theta));
+  const core::Position heading = core::unit_vector(action.from.theta);
   if (std::abs(core::cross_product(heading, d)) > kTolerance) return "leads off the line of its heading";
   if (!action.reverse) return nullptr;
   if (!robot.may_reverse) return "reverses, but the robot may not";
@@ -270,7 +271,7 @@ void check_obstacle(const MovingObstacle& obstacle, const std::string& place, Fa
     const MovingObstacle::Entry& before = obstacle.motion[k - 1];
     const double duration = entry.t - before.t;
     const double distance =
-        std::hypot(entry.position.x - before.position.x, entry.position.y - before.position.y);
+        core::Position(entry.position.x - before.position.x, entry.position.y - before.position.y).norm();
     if (duration <= 0.0) faults.add(here + ".t", "The entry is not later than the one before.");
     if (duration > 0.0 && distance > kMostLinearSpeed * duration) {
       faults.add(here, "The obstacle moves faster than " + number_text(kMostLinearSpeed) + " m/s.");

@@ -3,6 +3,7 @@
 #include <iterator>
 
 #include "api/advance/advance.h"
+#include "core/geometry/elementary_functions.h"
 #include "core/geometry/position.h"
 #include "core/geometry/tolerance.h"
 #include "core/model/loads.h"
@@ -117,13 +118,13 @@ void turn_back(Actions& driven, Actions& following, double planned_heading, cons
 
 /// The heading of a robot that drives along a path; backwards if it has planned to.
 double heading_along(const core::Position& path, const Action& planned) {
-  const core::Position ahead(std::cos(planned.from.theta), std::sin(planned.from.theta));
+  const core::Position ahead = core::unit_vector(planned.from.theta);
   const core::Position planned_path = planned.to.position - planned.from.position;
   const double aside = core::cross_product(ahead, path);
   if (std::abs(aside) <= kOnLine && ahead.dot(path) * ahead.dot(planned_path) > 0.0)
     return planned.from.theta;
   const double sign = ahead.dot(planned_path) < 0.0 ? -1.0 : 1.0;
-  return std::atan2(sign * path.y(), sign * path.x());
+  return core::heading_of(sign * path);
 }
 
 /// The action under way as it goes on from a measured pose; nothing if it is done. `left`: seconds, of a

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "api/json/printable.h"
+#include "core/geometry/elementary_functions.h"
 
 namespace fleetplan::api {
 
@@ -109,8 +110,9 @@ class Picture {
   /// Draws a disk with a line from its centre in the direction of its heading.
   void add_standing(const Pose& pose, double radius, const std::string& fill) {
     add_disk(pose.position, radius, fill);
+    const Position ahead = radius * core::unit_vector(pose.theta);
     text_ << "<path stroke=\"#fff\" d=\"M" << pose.position.x() << ' ' << height_ - pose.position.y() << 'l'
-          << radius * std::cos(pose.theta) << ' ' << -radius * std::sin(pose.theta) << "\"/>";
+          << ahead.x() << ' ' << -ahead.y() << "\"/>";
   }
 
   void add_title(const std::string& title) {
@@ -299,7 +301,7 @@ void paint_disk(Canvas& canvas, const Position& centre, double radius, double ho
 
 void paint_standing(Canvas& canvas, const Pose& pose, double radius, const Colour& colour) {
   paint_disk(canvas, pose.position, std::max(radius, canvas.pixel()), 0.0, colour);
-  const Position tip = pose.position + radius * Position(std::cos(pose.theta), std::sin(pose.theta));
+  const Position tip = pose.position + radius * core::unit_vector(pose.theta);
   paint_line(canvas, pose.position, tip, radius / 6.0, kHeading);
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/geometry/elementary_functions.h"
 #include "core/geometry/position.h"
 #include "core/geometry/tolerance.h"
 
@@ -22,7 +23,7 @@ double straight_cost(const GoalLeg& leg, const Motion& motion) {
   const Position d = leg.to.position - leg.from;
   const double distance = d.norm();
   if (distance <= kSamePosition) return rotation(leg.heading, leg.to.theta);
-  const double heading = std::atan2(d.y(), d.x());
+  const double heading = heading_of(d);
   if (motion.may_reverse) return reverse_bound(distance, heading, leg.heading, leg.to.theta, motion);
   return rotation(leg.heading, heading) + motion.translation_time(distance) + rotation(heading, leg.to.theta);
 }
@@ -95,13 +96,14 @@ class Turns {
  private:
   double cost(double aside) const {
     const double turn = std::max(from_ - aside, 0.0) + std::max(to_ - aside, 0.0);
-    return std::max(turn, least_) / speed_ + straight_ / std::cos(aside);
+    return std::max(turn, least_) / speed_ + straight_ / cosine(aside);
   }
 
   /// Where a radian less of so many rotations saves as much time as the longer way costs.
   double stationary(double rotations) const {
     const double gain = rotations / (speed_ * straight_);
-    return std::asin(2.0 * gain / (1.0 + std::sqrt(1.0 + 4.0 * gain * gain)));
+    const double sine = 2.0 * gain / (1.0 + std::sqrt(1.0 + 4.0 * gain * gain));
+    return arctangent(sine, std::sqrt((1.0 - sine) * (1.0 + sine)));
   }
 
   double from_;

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/geometry/elementary_functions.h"
 #include "core/geometry/position.h"
 #include "core/geometry/tolerance.h"
 
@@ -105,7 +106,7 @@ std::optional<Tangent> common_tangent(const TangentEnd& from, const TangentEnd& 
     return std::nullopt;
   }
   Tangent tangent;
-  tangent.heading = std::atan2(along.y(), along.x());
+  tangent.heading = heading_of(along);
   tangent.leave_angle = angle_on_bend(from, tangent.heading);
   tangent.arrive_angle = angle_on_bend(to, tangent.heading);
   const bool grazes_first = std::abs(tangent.leave_angle + 0.25 * kPi) < kGrazing;
@@ -135,7 +136,7 @@ constexpr int kRejectionsPerStep = 4;
 constexpr int kSweepWork = 30;
 
 /// The direction away from the blocked cell.
-double away_direction(const Corner& corner) { return std::atan2(corner.away_y, corner.away_x); }
+double away_direction(const Corner& corner) { return arctangent(corner.away_y, corner.away_x); }
 
 }  // namespace
 
@@ -221,9 +222,9 @@ const TangentGraph::Arc& TangentGraph::arc(int corner) {
   const Position center = corners_.position(corner);
   const auto at = [&](int k) {
     const double angle = first + k * kPiece;
-    return Position(center + radius_ * Position(std::cos(angle), std::sin(angle)));
+    return Position(center + radius_ * unit_vector(angle));
   };
-  const double off_chord = radius_ * (1.0 - std::cos(0.5 * kPiece));
+  const double off_chord = radius_ * (1.0 - cosine(0.5 * kPiece));
   for (int k = 0; k < kPieces; ++k) {
     if (!sight_.may_sweep(at(k), at(k + 1), radius_ - off_chord - kRadiusReduction)) arc.blocked |= 1u << k;
   }

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "core/geometry/elementary_functions.h"
 #include "core/lns/smoothing.h"
 
 namespace fleetplan::core {
@@ -327,7 +328,7 @@ double Iterations::most_loss() const {
   const auto count = static_cast<double>(incumbent_.planned().size());
   double delays = 0.0;
   for (const std::size_t robot : incumbent_.planned()) delays += exhaustion_.delay(robot);
-  return kMostLossShare * delays / count * std::exp2(static_cast<double>(straying_) / count);
+  return kMostLossShare * delays / count * power_of_two(static_cast<double>(straying_) / count);
 }
 
 std::size_t Iterations::choose_delayed(const DelayedChoice& choice) {

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/geometry/elementary_functions.h"
 #include "core/geometry/position.h"
 #include "core/model/objective_share.h"
 #include "core/sipp/timed_path.h"
@@ -68,9 +69,9 @@ class Smoothing {
 
  private:
   Position step() {
-    const double length = longest_step_ * std::exp2(-kHalvings * random_.unit());
+    const double length = longest_step_ * power_of_two(-kHalvings * random_.unit());
     const double angle = 2.0 * std::numbers::pi * random_.unit();
-    return {length * std::cos(angle), length * std::sin(angle)};
+    return length * unit_vector(angle);
   }
 
   void replace(std::size_t stop, std::size_t count, const std::optional<Position>& by, double gain) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/geometry/elementary_functions.h"
+
 namespace fleetplan::core {
 namespace {
 
@@ -29,7 +31,7 @@ std::vector<Lattice::Step> neighbourhood(int connectivity) {
 
 /// Returns the cosine of half the angle between the first two moves, which is the largest such angle.
 double cosine_of_half(const Lattice::Step& second) {
-  return std::cos(0.5 * std::atan2(second.rows, second.columns));
+  return cosine(0.5 * arctangent(second.rows, second.columns));
 }
 
 }  // namespace
@@ -61,7 +63,7 @@ std::int64_t Lattice::vertices_along(double length, double spacing) {
 
 Displacement Displacement::between(const Position& from, const Position& to) {
   const Position d = to - from;
-  return {std::atan2(d.y(), d.x()), d.norm()};
+  return {heading_of(d), d.norm()};
 }
 
 Displacement Lattice::displacement(int columns, int rows) const {
@@ -151,7 +153,7 @@ FreeSpace::FreeSpace(const Lattice& lattice, const LineOfSight& sight, double ra
       finer_(finer ? std::move(finer) : std::make_shared<FinerVertices>()),
       masks_(static_cast<std::size_t>(lattice.vertex_count())) {
   for (const Lattice::Step& step : lattice.steps()) {
-    longest_step_ = std::max(longest_step_, lattice.spacing() * std::hypot(step.columns, step.rows));
+    longest_step_ = std::max(longest_step_, lattice.spacing() * Position(step.columns, step.rows).norm());
     all_steps_ = all_steps_ << 1 | 1u;
   }
 }

@@ -60,7 +60,7 @@ double obstacle_distance(const OccupancyGrid& grid, const Position& position, do
         const double dx = distance_to_cell(position.x(), column, resolution);
         if (dx >= nearest) break;
         if (!grid.blocked({column, row})) continue;
-        nearest = std::min(nearest, std::hypot(dx, dy));
+        nearest = std::min(nearest, Position(dx, dy).norm());
         break;
       }
     }

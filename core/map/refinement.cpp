@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/geometry/elementary_functions.h"
 #include "core/geometry/segment.h"
 #include "core/geometry/tolerance.h"
 #include "core/map/fine_regions.h"
@@ -248,7 +249,7 @@ void Refinement::link(int from, int to) {
 }
 
 void Refinement::add_corners(const OccupancyGrid& grid) {
-  const double away = needed_ / std::cos(0.5 * kTurnAtCorner);
+  const double away = needed_ / cosine(0.5 * kTurnAtCorner);
   for (int row = 1; row < grid.rows() && !stop_.met_at_step(); ++row) {
     for (int column = 1; column < grid.columns(); ++column) {
       const bool left = grid.blocked({column - 1, row - 1}) != grid.blocked({column - 1, row});
@@ -262,26 +263,26 @@ void Refinement::add_corners(const OccupancyGrid& grid) {
       const double to_right = left ? 1.0 : -1.0;
       const Position corner = grid.resolution() * Position(column, row);
       for (const double angle : {0.5 * kTurnAtCorner, 1.5 * kTurnAtCorner}) {
-        add_corner(corner + away * Position(to_right * std::cos(angle), up * std::sin(angle)));
+        add_corner(corner + away * Position(to_right * cosine(angle), up * sine(angle)));
       }
     }
   }
 }
 
 void Refinement::add_corners(const Polygon& polygon) {
-  const double away = needed_ / std::cos(0.5 * kTurnAtCorner);
+  const double away = needed_ / cosine(0.5 * kTurnAtCorner);
   const std::vector<Position>& corners = polygon.corners();
   const double order = polygon.twice_signed_area() > 0.0 ? 1.0 : -1.0;
   for (std::size_t k = 0; k < corners.size() && !stop_.met_at_step(); ++k) {
     const Position& corner = corners[k];
     const Position in = corner - corners[(k + corners.size() - 1) % corners.size()];
     const Position out = corners[(k + 1) % corners.size()] - corner;
-    const double turn = order * std::atan2(cross_product(in, out), in.dot(out));
-    if (turn <= 0.0) continue;                                                         // a concave one
-    const double first = std::atan2(in.y(), in.x()) - order * 0.5 * std::numbers::pi;  // away from its edge
+    const double turn = order * arctangent(cross_product(in, out), in.dot(out));
+    if (turn <= 0.0) continue;                                             // a concave one
+    const double first = heading_of(in) - order * 0.5 * std::numbers::pi;  // away from its edge
     for (double angle = 0.5 * std::min(turn, kTurnAtCorner); angle < turn; angle += kTurnAtCorner) {
       const double at = first + order * angle;
-      add_corner(corner + away * Position(std::cos(at), std::sin(at)));
+      add_corner(corner + away * unit_vector(at));
     }
   }
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/geometry/elementary_functions.h"
 #include "core/geometry/position.h"
 #include "core/geometry/tolerance.h"
 
@@ -124,7 +125,7 @@ std::optional<std::size_t> DriveZones::forbidding_zone(const Position& from, con
   const Position way = to - from;
   for (const OneWayZone& zone : *one_way_) {
     if (!zone.polygon.box_meets(from, to)) continue;
-    const double direction = std::atan2(way.y(), way.x());
+    const double direction = heading_of(way);
     if (angle_between(normalize_angle(direction), zone.heading) <= zone.half_angle + kSameHeading) continue;
     if (!zone.polygon.spans_inside(from, to).empty()) return zone.index;
   }

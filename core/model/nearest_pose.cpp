@@ -1,8 +1,11 @@
 #include "core/model/nearest_pose.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+
+#include "core/geometry/elementary_functions.h"
 
 namespace fleetplan::core {
 namespace {
@@ -24,12 +27,12 @@ constexpr int kHalvingsOfSide = 24;
 constexpr double kSlack = 1e-9;
 /// How much farther a place may be that has fewer decimals, metres.
 constexpr double kForFewerDecimals = 0.01;
-constexpr int kFewestDecimals = 2;
-constexpr int kMostDecimals = 6;
+/// Places of 2 to 6 decimals, as numbers of them in a metre.
+constexpr std::array kInAMetre{1e2, 1e3, 1e4, 1e5, 1e6};
 
 Position direction(int index) {
   const double angle = 2.0 * std::numbers::pi * index / kDirections;
-  return {std::cos(angle), std::sin(angle)};
+  return unit_vector(angle);
 }
 
 }  // namespace
@@ -73,8 +76,7 @@ std::optional<Position> NearestPlaces::with_few_decimals(const LineOfSight& sigh
   const Position world = place + origin_;
   const double farthest = (place - from).norm() + kForFewerDecimals;
   // Bounded: four places for each number of decimals.
-  for (int decimals = kFewestDecimals; decimals <= kMostDecimals; ++decimals) {
-    const double unit = std::pow(10.0, decimals);
+  for (const double unit : kInAMetre) {
     std::optional<Position> best;
     for (const int x : {0, 1}) {
       for (const int y : {0, 1}) {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/geometry/elementary_functions.h"
 #include "core/geometry/position.h"
 #include "core/geometry/tolerance.h"
 #include "core/model/itinerary.h"
@@ -253,7 +254,7 @@ double heading_from(const std::vector<TimedMove>& moves, std::size_t first) {
   std::size_t last = first;
   while (last + 1 < moves.size() && moves[last + 1].continues) ++last;
   const Position direction = moves[last].path.to - moves[first].path.from;
-  return normalize_angle(std::atan2(direction.y(), direction.x()));
+  return heading_of(direction);
 }
 
 }  // namespace

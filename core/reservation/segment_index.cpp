@@ -16,8 +16,8 @@ constexpr double kMaxBuckets = 2.5e5;
 constexpr double kMaxBucketsPerRobot = 4096.0;
 /// The sides of buckets within which a disk at rest is entered: into a few hundred buckets of its layer.
 constexpr double kMostReach = 8.0;
-/// The side of a bucket to that of one in the layer before.
-constexpr double kLayerRatio = 4.0;
+/// The side of a bucket to that of one in the layer before: 2 to the power of this.
+constexpr int kLayerExponent = 2;
 
 std::vector<double> pair_radii(const std::vector<LargestDisk>& disks) {
   std::vector<double> radii;
@@ -87,7 +87,7 @@ SegmentIndex::DiskId SegmentIndex::store(std::size_t robot, const SizedSegment& 
   return id;
 }
 
-double SegmentIndex::size_of(int level) const { return bucket_size_ * std::pow(kLayerRatio, level); }
+double SegmentIndex::size_of(int level) const { return std::ldexp(bucket_size_, kLayerExponent * level); }
 
 /// Of the layer in which robots of the class meet the occupant.
 int SegmentIndex::level_of(const RadiusClass& radius_class, const Occupant& occupant) const {

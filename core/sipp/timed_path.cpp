@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/elementary_functions.h"
 #include "core/geometry/tolerance.h"
 #include "core/sipp/moves.h"
 
@@ -97,7 +98,7 @@ bool TimedPath::is_bend(std::size_t stop) const {
 
 void TimedPath::set_move(const Stop& from, Stop& to) const {
   const Position way = to.position - from.position;
-  const double heading = normalize_angle(std::atan2(way.y(), way.x()));
+  const double heading = heading_of(way);
   to.heading = to.reverse ? opposite_heading(heading) : heading;
   to.duration = times_.translation_time(way.norm(), [&] { return Segment{from.position, to.position}; });
   to.heading_after = to.heading;

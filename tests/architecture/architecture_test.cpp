@@ -176,6 +176,14 @@ TEST(SourceRules, RequireIncludesRelativeToTheProject) {
   EXPECT_THAT(violations("core/map/a.cpp", "#include \"b.h\"\n"), ElementsAre(HasSubstr("\"b.h\"")));
 }
 
+TEST(SourceRules, RejectFunctionsWithOtherDigitsOnOtherMachines) {
+  for (const char* file : {"core/a.cpp", "api/a.cpp", "library/a.cpp"}) {
+    EXPECT_THAT(violations(file, "double x = std::atan2(1.0, 2.0);\n"), ElementsAre(HasSubstr("std::atan2")));
+    EXPECT_THAT(violations(file, "double x = std::sqrt(2.0);\n"), IsEmpty());
+  }
+  EXPECT_THAT(violations("server/a.cpp", "double x = std::pow(2.0, 0.5);\n"), IsEmpty());
+}
+
 TEST(SourceRules, RejectTheEnvironmentAndOutputInCore) {
   EXPECT_THAT(violations("core/a.cpp", "auto* home = std::getenv(\"HOME\");\n"),
               ElementsAre("core/a.cpp must not use getenv"));

@@ -19,9 +19,10 @@ from replay import Walls  # noqa: E402
 
 
 @contextlib.contextmanager
-def service(program=BINARY):
+def service(program=BINARY, **environment):
     """The URL of a server, by default of this build."""
-    server = subprocess.Popen([program, "--port", "0", "--log-level", "off"], stdout=subprocess.PIPE, text=True)
+    server = subprocess.Popen([program, "--port", "0", "--log-level", "off"], stdout=subprocess.PIPE, text=True,
+                              env={**os.environ, **environment})
     try:
         yield re.search(r"http://\S+", server.stdout.readline()).group()
     finally:

@@ -9,6 +9,7 @@
 
 #include "api/json/errors.h"
 #include "api/request/limits.h"
+#include "core/geometry/elementary_functions.h"
 #include "core/geometry/position.h"
 #include "core/geometry/tolerance.h"
 
@@ -33,13 +34,13 @@ double turn_between(const core::Pose& a, const core::Pose& b) {
 /// Returns how far a translation leads off the line of its heading, metres. A robot may drive backwards.
 double sideways(const core::Action& action) {
   const core::Position d = action.to.position - action.from.position;
-  return std::abs(d.x() * std::sin(action.from.theta) - d.y() * std::cos(action.from.theta));
+  return std::abs(core::cross_product(core::unit_vector(action.from.theta), d));
 }
 
 /// Returns how far a translation leads along its heading, metres.
 double ahead(const core::Action& action) {
   const core::Position d = action.to.position - action.from.position;
-  return d.x() * std::cos(action.from.theta) + d.y() * std::sin(action.from.theta);
+  return core::unit_vector(action.from.theta).dot(d);
 }
 
 std::string seconds(double t) { return number_text(t) + " s"; }

@@ -10,6 +10,7 @@
 
 #include "api/json/errors.h"
 #include "api/request/limits.h"
+#include "core/geometry/elementary_functions.h"
 
 namespace fleetplan::api {
 
@@ -75,17 +76,17 @@ int parse_orientation(const JsonReader& member) {
   const std::size_t before = member.fault_count();
   const JsonReader quaternion = member.object(kQuaternionMembers);
   const auto component = [&](const char* name) { return quaternion.find(name).number(kUnit).value_or(0.0); };
-  const double tilt = std::hypot(component("x"), component("y"));
+  const double tilt = core::Position(component("x"), component("y")).norm();
   const double z = component("z");
   const double w = quaternion.find("w") ? component("w") : 1.0;
   if (!quaternion || member.fault_count() != before) return 0;
-  if (tilt > kTurnTolerance / 2.0 * std::hypot(z, w)) {
+  if (tilt > kTurnTolerance / 2.0 * core::Position(z, w).norm()) {
     quaternion.fault(fault::kOutOfRange,
                      "The map is tilted by its orientation, as x and y are not 0; give a turn about z alone" +
                          std::string(kTurnRemedy) + ".");
     return 0;
   }
-  const double yaw = z == 0.0 ? 0.0 : 2.0 * std::atan2(z, w);
+  const double yaw = z == 0.0 ? 0.0 : 2.0 * core::arctangent(z, w);
   const auto turns = quarter_turns_of(yaw);
   if (!turns) {
     quaternion.fault(fault::kOutOfRange, "The map is turned by its orientation, by " + number_text(yaw) +

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/geometry/elementary_functions.h"
 #include "core/runtime/random.h"
 
 namespace fleetplan::core {
@@ -59,12 +60,12 @@ class Draw {
     return range.min < range.max ? range.min + unit() * (range.max - range.min) : range.min;
   }
 
-  double exponential(double mean) { return -mean * std::log1p(-unit()); }
+  double exponential(double mean) { return -mean * natural_logarithm(1.0 - unit()); }
 
   /// Draws a number from the standard normal distribution, by the method of Box and Muller.
   double normal() {
-    const double radius = std::sqrt(-2.0 * std::log1p(-unit()));
-    return radius * std::cos(2.0 * std::numbers::pi * unit());
+    const double radius = std::sqrt(-2.0 * natural_logarithm(1.0 - unit()));
+    return radius * cosine(2.0 * std::numbers::pi * unit());
   }
 
   void add_halts(double moving, std::vector<DisturbedActions::Halt>& halts) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "core/geometry/elementary_functions.h"
 #include "core/geometry/position.h"
 #include "core/verify/rules/robot_rules.h"
 
@@ -255,14 +256,14 @@ class MotionCheck {
   void check_direction(std::size_t k) {
     const Action& action = plan_.actions[k];
     const Position d = action.to.position - action.from.position;
-    const double theta = action.from.theta;
-    const double sideways = std::abs(d.x() * std::sin(theta) - d.y() * std::cos(theta));
+    const Position ahead = unit_vector(action.from.theta);
+    const double sideways = std::abs(cross_product(ahead, d));
     if (sideways > tolerance_.metres) {
       report(Kind::speed, action.t_start, sideways, 0.0,
              action_name(k) + " moves " + metres(sideways) +
                  " sideways, but the robot can only move along its heading");
     }
-    if (action.reverse) check_reverse(k, d.x() * std::cos(theta) + d.y() * std::sin(theta));
+    if (action.reverse) check_reverse(k, ahead.dot(d));
   }
 
   /// Reports a translation in the wrong direction. `ahead`: how far it leads along the heading, metres.

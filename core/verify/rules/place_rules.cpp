@@ -3,6 +3,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/geometry/elementary_functions.h"
 #include "core/geometry/position.h"
 #include "core/geometry/tolerance.h"
 #include "core/verify/rules/robot_rules.h"
@@ -279,7 +280,7 @@ std::optional<Violation> ZonesOfRobot::check_translation(const ZoneBox& in, cons
   for (const Stretch& stretch : inside) {
     const double t = action.t_start + stretch.first * duration;
     if (in.zone->type == Zone::Type::one_way) {
-      const double off = std::abs(rotation_between(in.zone->heading, std::atan2(way.y(), way.x())));
+      const double off = std::abs(rotation_between(in.zone->heading, heading_of(way)));
       if (off <= in.zone->half_angle + tolerance.radians) return std::nullopt;
       return broken(in, t, off, in.zone->half_angle,
                     name + " moves " + radians(off) + " off the heading of the one-way zone \"" +

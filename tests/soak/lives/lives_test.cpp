@@ -4,6 +4,7 @@
 // is computed from the JSON by code of the test.
 //
 // FLEETPLAN_ROUNDS is how often they are planned in all, FLEETPLAN_FIRST_LIFE the seed of the first fleet.
+// FLEETPLAN_RECORD names a file to which all requests are written.
 
 #include "tests/api/support/lives.h"
 
@@ -25,6 +26,7 @@
 #include "tests/api/support/moved.h"
 #include "tests/soak/lives/features.h"
 #include "tests/soak/lives/own_motion.h"
+#include "tests/soak/lives/recorded.h"
 #include "tests/soak/lives/tight_fleets.h"
 
 namespace fleetplan::api {
@@ -153,6 +155,7 @@ class EverythingLife {
   bool plan() {
     constexpr std::int64_t kPlenty = 5'000;
     const std::int64_t steps = dice_.chance(0.3) ? dice_.below(2000) : kPlenty;
+    record("/v1/plan", request_);
     const Reply reply = planned_in(steps, request_);
     EXPECT_EQ(reply.status, 200) << steps << " steps: " << reply.body << "\n" << came_from_ << request_;
     if (reply.status != 200) return false;
@@ -165,6 +168,7 @@ class EverythingLife {
     Json whole = request_;
     whole.erase("unavoidable");  // of the request before
     whole.update(answer_);
+    record("/v1/validate", whole);
     const Reply reply = validate_endpoint(whole.dump(), {});
     ASSERT_EQ(reply.status, 200) << reply.body << "\n" << whole;
     EXPECT_EQ(Json::parse(reply.body).at("violations"), Json::array()) << whole;
@@ -183,6 +187,7 @@ class EverythingLife {
       const Json actions = plan.is_null() ? robot.value("committed", Json::array()) : plan.at("actions");
       if (observes && dice_.chance(0.4)) observe(body, robot.at("id"), actions);
     }
+    record("/v1/advance", body);
     const std::string text = body.dump();
     const Reply reply = advance_endpoint(text, {});
     EXPECT_EQ(reply.status, 200) << reply.body << "\n" << text;

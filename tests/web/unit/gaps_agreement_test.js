@@ -25,7 +25,9 @@ async function ask(path, body) {
     headers: { "Content-Type": "application/json" },
     body: JSON.stringify(body),
   };
-  const response = await fetch(new URL(path, service.url), init);
+  const response = await fetch(new URL(path, service.url), init).catch((error) => {
+    throw new Error(`${service.url}${path}: ${error.cause}`, { cause: error });
+  });
   const answer = await response.json();
   assert.equal(response.status, 200, `${path}: ${JSON.stringify(answer).slice(0, 500)}`);
   return answer;
