@@ -15,6 +15,7 @@
 #include "api/request/parse_body.h"
 #include "api/request/parse_request.h"
 #include "api/response/write_response.h"
+#include "core/advance/timeline.h"
 #include "core/geometry/position.h"
 #include "core/model/drive_zones.h"
 #include "core/model/itinerary.h"
@@ -56,7 +57,7 @@ std::optional<core::Pose> parse_measured(const JsonReader& entry, const WorldFra
 
 void parse_events(const JsonReader& root, const RobotNames& names, const Limits& limits,
                   const WorldFrame& frame, AdvanceRequest& request) {
-  std::vector<Execution>& executions = request.executions;
+  std::vector<core::Execution>& executions = request.now.executions;
   Quota quota(limits.max_goals, "goals");
   read_entries(root.find("poses"), kPoseMembers, names, [&](const JsonReader& entry, auto robot) {
     const auto pose = parse_measured(entry, frame);
@@ -134,7 +135,7 @@ std::optional<core::ActionPlace> parse_released(const JsonReader& member, const 
 
 /// Reads where a robot says that it is in its actions.
 void parse_state(const JsonReader& entry, const WorldFrame& frame, const core::Robot& robot,
-                 Execution& execution) {
+                 core::Execution& execution) {
   const std::vector<core::Action>& actions = execution.actions;
   const JsonReader left_member = entry.find("service_left");
   const auto number = parse_action_number(entry.require("action"), robot, actions);
@@ -150,29 +151,29 @@ void parse_state(const JsonReader& entry, const WorldFrame& frame, const core::R
              " is no service, which is a wait with goal: leave service_left out.";
     });
   }
-  execution.reported = ReportedState{{*number, *fraction}, service_left, {}};
+  execution.reported = core::ReportedState{{*number, *fraction}, service_left, {}};
   execution.reported->released =
       parse_released(entry.find("released"), robot, execution.reported->place, actions);
-  execution.measured = parse_measured_at(entry, frame, pose_of(actions, *execution.reported));
+  execution.measured = parse_measured_at(entry, frame, core::pose_of(actions, *execution.reported));
 }
 
 /// Reads them when the actions of all robots are known.
 void parse_states(const JsonReader& list, const RobotNames& names, AdvanceRequest& request) {
   read_entries(list, kStateMembers, names, [&](const JsonReader& entry, auto robot) {
     if (!robot) return;
-    Execution& execution = request.executions[*robot];
+    core::Execution& execution = request.now.executions[*robot];
     if (execution.measured) {
       entry.find("robot").fault(
           fault::kDuplicate,
           "This robot has an entry in poses, too: leave that out, and give the measured "
           "pose here, as x, y and theta.");
     }
-    parse_state(entry, request.fleet.map->frame, request.robots[*robot], execution);
+    parse_state(entry, request.fleet.map->frame, request.now.robots[*robot], execution);
   });
 }
 
-Moment parse_moment(const JsonReader& root, const core::PlanOptions& options) {
-  Moment moment;
+core::Moment parse_moment(const JsonReader& root, const core::PlanOptions& options) {
+  core::Moment moment;
   moment.at = root.require("at").number(kDuration).value_or(0.0);
   moment.commit = root.find("commit").number(kDuration);
   if (const auto tolerance = root.find("pose_tolerance").number(kLengthOrZero)) {
@@ -191,7 +192,7 @@ void take_robot(std::size_t index, AdvanceRequest& read) {
   repeated.texts = std::move(given.goal_texts);
   repeated.open = std::move(given.open);
   repeated.returns = given.idle == Idle::come_back;
-  Execution& execution = read.executions[index];
+  core::Execution& execution = read.now.executions[index];
   execution.stop_distance = given.stop_distance;
   execution.stays_when_served = given.idle == Idle::stay;
   execution.first_unserved = given.first_unserved;
@@ -199,7 +200,7 @@ void take_robot(std::size_t index, AdvanceRequest& read) {
   if (!execution.planned) execution.actions = robot.committed;
   // A robot that is off its path turns back as slowly as it has to anywhere.
   robot.angular_speed = core::DriveZones(read.fleet.zones, index, robot).least_angular_speed();
-  read.robots.push_back(std::move(robot));
+  read.now.robots.push_back(std::move(robot));
 }
 
 }  // namespace
@@ -214,8 +215,8 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
   };
   read.fleet = parse_fleet(read.request, limits, set_budget, read.given.get());
   Fleet& fleet = read.fleet;
-  read.moment = parse_moment(root, fleet.options.plan);
-  read.executions.resize(fleet.robots.size());
+  read.now.moment = parse_moment(root, fleet.options.plan);
+  read.now.executions.resize(fleet.robots.size());
   read.repeated.resize(fleet.robots.size());
   const RobotNames names(fleet.robots, "robots of the request");
   const WorldFrame frame = fleet.map ? fleet.map->frame : WorldFrame();
@@ -224,8 +225,8 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
   std::vector<core::RobotPlan> plans = parse_plans(list, fleet.robots, frame);
   check_profiles(list, plans);
   for (core::RobotPlan& plan : plans) {
-    read.executions[plan.robot].actions = std::move(plan.actions);
-    read.executions[plan.robot].planned = true;
+    read.now.executions[plan.robot].actions = std::move(plan.actions);
+    read.now.executions[plan.robot].planned = true;
   }
   if (!read.request || root.fault_count() > 0 || work.met()) return std::nullopt;
   std::size_t corners = fleet.zones.size();
@@ -234,10 +235,25 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
     if (work.met_after(corners)) return std::nullopt;
     take_robot(k, read);
   }
-  read.obstacles = fleet.obstacles;
+  read.now.obstacles = fleet.obstacles;
   parse_states(root.find("states"), names, read);
   if (root.fault_count() > 0) return std::nullopt;
   return work.met() ? std::nullopt : std::optional(std::move(read));
+}
+
+core::Judgement judgement_of(AdvanceRequest& request, core::MapCache* maps, core::Work& work) {
+  core::Judgement judgement;
+  judgement.options = request.fleet.options.plan;
+  judgement.zones = request.fleet.zones;
+  judgement.reports_invalid = request.fleet.options.invalid_robots == InvalidRobots::report;
+  judgement.read_back = [&frame = request.fleet.map->frame](const core::Position& position) {
+    return core::Position(frame.to_world(position) - frame.origin);
+  };
+  judgement.map = [&grid = request.fleet.map->grid, maps, &work] {
+    return maps != nullptr ? maps->map_of(std::move(grid), work.reading())
+                           : core::static_map(std::move(grid), work.reading());
+  };
+  return judgement;
 }
 
 namespace {
@@ -317,12 +333,12 @@ class GoalsToRepeat {
  public:
   GoalsToRepeat(const AdvanceRequest& request, std::size_t index, const core::Robot& left)
       : left_(left), repeated_(request.repeated[index]) {
-    const Execution& execution = request.executions[index];
+    const core::Execution& execution = request.now.executions[index];
     are_other_ = execution.goals.has_value();
     if (are_other_) {
-      passed_ = passed_goals(request.robots[index], execution, request.moment, left);
+      passed_ = core::passed_goals(request.now.robots[index], execution, request.now.moment, left);
     } else {
-      passed_.first = request.robots[index].goal_count() - left.goal_count();
+      passed_.first = request.now.robots[index].goal_count() - left.goal_count();
     }
   }
 
@@ -370,7 +386,7 @@ class GoalsToRepeat {
 
   const core::Robot& left_;
   const RepeatedGoals& repeated_;
-  PassedGoals passed_;  // those that are left begin with the first one
+  core::PassedGoals passed_;  // those that are left begin with the first one
   bool are_other_ = false;
 };
 
@@ -438,7 +454,7 @@ void write_robots(JsonWriter& json, const JsonValue& given, const AdvanceRequest
   json.begin_array();
   std::size_t index = 0;
   for (const JsonValue robot : given.children()) {
-    write_robot(json, robot, request.robots[index], robots[index], request.fleet.map->frame,
+    write_robot(json, robot, request.now.robots[index], robots[index], request.fleet.map->frame,
                 GoalsToRepeat(request, index, robots[index]), work);
     ++index;
   }
@@ -447,12 +463,12 @@ void write_robots(JsonWriter& json, const JsonValue& given, const AdvanceRequest
 
 void write_obstacles(JsonWriter& json, const JsonValue& given, const AdvanceRequest& request) {
   json.begin_array();
-  auto read = request.obstacles.begin();
+  auto read = request.now.obstacles.begin();
   // Bounded: the text of the request, which is copied.
   for (const JsonValue obstacle : given.children()) {
     // One that had left at the start is not among those that were read.
-    if (read == request.obstacles.end() || obstacle.find("id")->string() != read->id) continue;
-    const auto left = advanced(*read++, request.moment.at);
+    if (read == request.now.obstacles.end() || obstacle.find("id")->string() != read->id) continue;
+    const auto left = core::advanced(*read++, request.now.moment.at);
     if (!left) continue;
     json.begin_object();
     for (const JsonValue member : obstacle.children()) {
@@ -479,7 +495,7 @@ void write_place(JsonWriter& json, std::string_view key, const core::ActionPlace
 
 /// The options as given, with those without which robots could not be where they are.
 void write_options(JsonWriter& json, const std::optional<JsonValue>& given,
-                   const Circumstances& circumstances) {
+                   const core::Circumstances& circumstances) {
   json.key("options").begin_object();
   if (given) {
     // Bounded: the text of the request, which is copied.
@@ -496,13 +512,13 @@ void write_options(JsonWriter& json, const std::optional<JsonValue>& given,
   json.end_object();
 }
 
-void write_unavoidable(JsonWriter& json, const AdvanceRequest& request, const Circumstances& circumstances,
-                       core::Work& work) {
+void write_unavoidable(JsonWriter& json, const AdvanceRequest& request,
+                       const core::Circumstances& circumstances, core::Work& work) {
   constexpr std::size_t kWorkOfAPair = 64;  // bytes of text, without names
   json.key("unavoidable").begin_array();
   for (const auto& [first, second, t] : circumstances.unavoidable.listed) {
-    const std::string& a = request.robots[first].id;
-    const std::string& b = request.robots[second].id;
+    const std::string& a = request.now.robots[first].id;
+    const std::string& b = request.now.robots[second].id;
     if (work.met_after(kWorkOfAPair + a.size() + b.size())) break;
     json.begin_object().key("robots").begin_array().value(a).value(b).end_array();
     json.member("t", t).end_object();
@@ -516,11 +532,11 @@ void write_unavoidable(JsonWriter& json, const AdvanceRequest& request, const Ci
 void write_progress(JsonWriter& json, const AdvanceRequest& request, core::Work& work) {
   constexpr std::size_t kWorkOfALook = 64;  // at an action, to find the one under way
   json.key("progress").begin_array();
-  for (std::size_t k = 0; k < request.robots.size(); ++k) {
-    const Execution& execution = request.executions[k];
+  for (std::size_t k = 0; k < request.now.robots.size(); ++k) {
+    const core::Execution& execution = request.now.executions[k];
     if (work.met_after(kWorkOfALook * (1 + execution.actions.size()))) break;
-    json.begin_object().member("robot", request.robots[k].id);
-    write_place(json, "was", place_of(request.robots[k], execution, request.moment));
+    json.begin_object().member("robot", request.now.robots[k].id);
+    write_place(json, "was", core::place_of(request.now.robots[k], execution, request.now.moment));
     write_place(json, "is", core::ActionPlace{});
     json.end_object();
   }
@@ -530,7 +546,7 @@ void write_progress(JsonWriter& json, const AdvanceRequest& request, core::Work&
 }  // namespace
 
 std::string write_advanced(const AdvanceRequest& request, const std::vector<core::Robot>& robots,
-                           const Circumstances& circumstances, core::Work& work) {
+                           const core::Circumstances& circumstances, core::Work& work) {
   const bool needs_options = circumstances.start_overlap || circumstances.some_in_walls;
   JsonWriter json;
   json.begin_object();

@@ -1,17 +1,16 @@
 #pragma once
 
-// The request of POST /v1/advance and its answer, the request of a later moment. POST /v1/plan accepts it
-// wherever robots were measured (acceptable.cpp).
+// The request of POST /v1/advance and its answer, the request of a later moment.
 
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "api/advance/advance.h"
 #include "api/json/json_reader.h"
 #include "api/request/limits.h"
 #include "api/request/parse_body.h"
+#include "core/advance/advance.h"
 #include "core/map/static_map.h"
 #include "core/model/action.h"
 #include "core/model/robot.h"
@@ -32,37 +31,24 @@ struct RepeatedGoals {
 struct AdvanceRequest {
   std::unique_ptr<GivenPositions> given;  // so that the answer repeats positions to the last digit
   Fleet fleet;                            // of its request
-  Moment moment;
-  std::vector<core::Robot> robots;
-  std::vector<Execution> executions;    // by robot
+  core::FleetInMotion now;
   std::vector<RepeatedGoals> repeated;  // by robot
-  std::vector<core::MovingObstacle> obstacles;
-  JsonReader request;  // the member of the body
+  JsonReader request;                   // the member of the body
 };
 
 /// Reads the root of the document. Returns none if it has faults, or if `work` is met.
 std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, const Limits& limits,
                                                     core::Work& work);
 
-/// What is wrong with where robots are, and cannot be mended.
-struct Circumstances {
-  std::optional<double> start_overlap = {};  // metres that starts may overlap; none: as the request allows
-  bool some_in_walls = false;                // robots whose centres are, which have to be reported as invalid
-  Collisions unavoidable = {};
-};
-
-/// Ends committed actions of robots that were measured, or have reported where they are, before they meet
-/// walls or zones, or break the rules of zones, as /v1/plan judges it; then those of others that would drive
-/// into them, see clear_commitments. `request`: that the robots follow from, whose map is taken. `maps`:
-/// those of earlier requests; may be null. Ends early when `work` is met.
-Circumstances make_acceptable(AdvanceRequest& request, std::vector<core::Robot>& robots, Motions& motions,
-                              core::MapCache* maps, core::Work& work);
+/// What the next request is judged by, with the map of the request, which is taken. `maps`: those of earlier
+/// requests; may be null.
+core::Judgement judgement_of(AdvanceRequest& request, core::MapCache* maps, core::Work& work);
 
 /// Returns the request of the moment: that of the body with the starts, goals, committed and previous actions
 /// of these robots, what is left of its obstacles, and the options that it needs where they are; everything
 /// else is copied. Then `progress`, and `unavoidable` with `unavoidable_total` if robots overlap or cannot
 /// stop in time. The text ends anywhere once the work is met.
 std::string write_advanced(const AdvanceRequest& request, const std::vector<core::Robot>& robots,
-                           const Circumstances& circumstances, core::Work& work);
+                           const core::Circumstances& circumstances, core::Work& work);
 
 }  // namespace fleetplan::api

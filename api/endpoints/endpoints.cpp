@@ -116,20 +116,10 @@ Reply advance_endpoint(std::string_view body, const RequestContext& context) {
                                 const AwaitTurn& await_turn) -> std::optional<std::string> {
     auto request = parse_advance_request(root, context.limits, work);
     if (!request || !await_turn()) return std::nullopt;
-    Moment& moment = request->moment;
-    moment.stand_until = standing_time(request->robots, request->executions, moment, work);
-    Motions motions{braking_of(request->robots, request->executions, moment, work)};
-    for (const core::MovingObstacle& obstacle : request->obstacles) {
-      if (moment.stand_until) break;  // what is released cannot be shortened for them
-      if (auto left = advanced(obstacle, moment.at)) motions.obstacles.push_back(std::move(*left));
-    }
-    auto robots = advanced(request->robots, request->executions, moment, motions, work);
+    const core::Judgement judgement = judgement_of(*request, context.maps, work);
+    const core::AdvancedFleet next = core::advance(request->now, judgement, work);
     if (work.met()) return std::nullopt;
-    const Circumstances circumstances = make_acceptable(*request, robots, motions, context.maps, work);
-    leave_out_unfit(robots, request->robots, request->executions, moment, work);
-    mark_services(robots, work);
-    if (work.met()) return std::nullopt;
-    return write_advanced(*request, robots, circumstances, work);
+    return write_advanced(*request, next.robots, next.circumstances, work);
   };
   return pure_endpoint(body, context, kAdvanceMembers, next_request);
 }

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "core/geometry/position.h"
 #include "core/geometry/speed_profile.h"
@@ -25,6 +26,9 @@ struct Action {
   /// The speed of a robot whose acceleration is limited, forwards and backwards > 0; nullopt: constant.
   std::optional<SpeedProfile> profile = {};
 };
+
+/// Actions one after the other.
+using ActionSequence = std::vector<Action>;
 
 /// Returns what an action covers: metres of a translation, radians of a rotation.
 double amount_of(const Action& action);

@@ -45,7 +45,7 @@ const std::vector<Layer>& layers() {
   static const std::vector<Layer> all = {
       {"core/",
        {"core/"},
-       {"Eigen/", "malloc.h"},
+       {"Eigen/", "malloc.h", "fleetplan/limits.h"},
        false,
        {"getenv", "cout", "cerr", "clog", "printf", "fprintf", "puts", "std::exit", "std::abort",
         "system_clock", "random_device", "rand", "srand", "spdlog", "nlohmann", "httplib"},
@@ -91,14 +91,18 @@ const std::vector<FolderRule>& folder_rules() {
       {"core/bounds/", all_robots, {}},
       {"core/instance/", all_robots, {}},
       {"core/sipp/", all_robots, {}},
+      // What follows from a plan, whoever made it.
+      {"core/advance/",
+       {"core/reservation/", "core/sipp/", "core/prioritized/", "core/lns/", "core/bounds/", "core/replan/"},
+       {}},
       // Execution works with plans, whoever made them.
       {"core/execution/",
        {"core/reservation/", "core/sipp/", "core/prioritized/", "core/lns/", "core/bounds/", "core/replan/"},
        {}},
       // The checker is independent: it shares no collision test with the search.
       {"core/verify/",
-       {"core/commitments/", "core/reservation/", "core/sipp/", "core/prioritized/", "core/lns/",
-        "core/bounds/", "core/replan/", "core/execution/", "core/geometry/disk_motion.h",
+       {"core/advance/", "core/commitments/", "core/reservation/", "core/sipp/", "core/prioritized/",
+        "core/lns/", "core/bounds/", "core/replan/", "core/execution/", "core/geometry/disk_motion.h",
         "core/geometry/motion_tree.h"},
        {}},
   };

@@ -1,3 +1,5 @@
+#include "core/advance/commitment_collisions.h"
+
 // Which robots collide that execute nothing but their commitments, and then stand.
 
 #include <algorithm>
@@ -6,12 +8,11 @@
 #include <optional>
 #include <utility>
 
-#include "api/advance/advance.h"
-#include "api/advance/pieces.h"
+#include "core/advance/pieces.h"
 #include "core/geometry/tolerance.h"
 #include "core/model/loads.h"
 
-namespace fleetplan::api {
+namespace fleetplan::core {
 
 namespace {
 
@@ -30,13 +31,13 @@ struct Stopping {
   double until = 0.0;  // seconds; how it brakes after that is after a collision, and not known
 };
 
-double length(const std::vector<core::Action>& actions) {
+double length(const std::vector<Action>& actions) {
   double metres = 0.0;
-  for (const core::Action& action : actions) metres += (action.to.position - action.from.position).norm();
+  for (const Action& action : actions) metres += (action.to.position - action.from.position).norm();
   return metres;
 }
 
-Stopping stopping(const core::Robot& robot, const std::vector<core::Action>& braking) {
+Stopping stopping(const Robot& robot, const std::vector<Action>& braking) {
   Stopping made;
   made.committed = committed_pieces(robot);
   made.brakes = !braking.empty();
@@ -45,18 +46,18 @@ Stopping stopping(const core::Robot& robot, const std::vector<core::Action>& bra
   if (made.brakes && braking.back().t_end > robot.committed_until()) {
     if (braking.back().t_end > robot.committed_until() + kLater)
       made.until = robot.committed_until() + kLater;
-    core::Robot brakes = robot;
+    Robot brakes = robot;
     brakes.committed = braking;
     made.braking = committed_pieces(brakes);
     driven = std::max(driven, length(braking));
   }
-  made.reach = core::largest_radius(robot) + driven;
+  made.reach = largest_radius(robot) + driven;
   return made;
 }
 
 class CollisionSearch {
  public:
-  CollisionSearch(const std::vector<core::Robot>& robots, core::Work& work) : robots_(robots), work_(work) {}
+  CollisionSearch(const std::vector<Robot>& robots, Work& work) : robots_(robots), work_(work) {}
 
   void add(Stopping robot) { stopping_.push_back(std::move(robot)); }
 
@@ -76,9 +77,9 @@ class CollisionSearch {
 
  private:
   std::optional<double> begin_of_overlap(std::size_t first, std::size_t second) {
-    const core::Robot& a = robots_[first];
-    const core::Robot& b = robots_[second];
-    const double reach = a.radius + b.radius - core::kContactTolerance;
+    const Robot& a = robots_[first];
+    const Robot& b = robots_[second];
+    const double reach = a.radius + b.radius - kContactTolerance;
     const double apart = (a.start.position - b.start.position).norm();
     if (reach > 0.0 && apart < reach) return 0.0;
     const Stopping& mine = stopping_[first];
@@ -97,22 +98,21 @@ class CollisionSearch {
   std::optional<double> first_contact(const std::vector<Piece>& mine, const std::vector<Piece>& theirs) {
     std::optional<double> contact;
     visit_in_time(mine, theirs, work_, [&](const Piece& piece, const Piece& other) {
-      contact = first_overlap(piece, other, piece.radius + other.radius - core::kContactTolerance);
+      contact = first_overlap(piece, other, piece.radius + other.radius - kContactTolerance);
       return contact.has_value();
     });
     return contact;
   }
 
-  const std::vector<core::Robot>& robots_;
-  core::Work& work_;
+  const std::vector<Robot>& robots_;
+  Work& work_;
   std::vector<Stopping> stopping_;  // by robot
 };
 
 }  // namespace
 
-Collisions collisions_of_commitments(const std::vector<core::Robot>& robots,
-                                     const std::vector<std::vector<core::Action>>& braking,
-                                     core::Work& work) {
+Collisions collisions_of_commitments(const std::vector<Robot>& robots,
+                                     const std::vector<std::vector<Action>>& braking, Work& work) {
   CollisionSearch search(robots, work);
   for (std::size_t k = 0; k < robots.size(); ++k) {
     if (work.met_after(kWorkOfAPiece * (1 + robots[k].committed.size()))) return {};
@@ -121,4 +121,4 @@ Collisions collisions_of_commitments(const std::vector<core::Robot>& robots,
   return search.run();
 }
 
-}  // namespace fleetplan::api
+}  // namespace fleetplan::core

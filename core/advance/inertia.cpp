@@ -1,51 +1,49 @@
-// Actions of robots that need time to start and to stop: their parts, where they stand when they brake, and
-// how they go on from there.
+#include "core/advance/inertia.h"
+
+// ActionSequence of robots that need time to start and to stop: their parts, where they stand when they
+// brake, and how they go on from there.
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
 
-#include "api/advance/advance.h"
+#include "core/advance/timeline.h"
 #include "core/geometry/tolerance.h"
 
-namespace fleetplan::api {
+namespace fleetplan::core {
 
 namespace {
-
-using core::Action;
-using Actions = std::vector<Action>;
 
 /// Times that differ by less are the same (seconds): far above rounding, far below what matters.
 constexpr double kRoundedTime = 1e-9;
 
 /// An action that has less left is done (metres or radians).
-constexpr double kLeft = core::kLeastAction;
+constexpr double kLeft = kLeastAction;
 
 /// Whether the robot goes on at speed after this action.
 bool ends_at_speed(const Action& action) { return action.profile && action.profile->end > 0.0; }
 
 /// The first of the actions up to an index that follow each other at speed.
-std::size_t begin_of_chain(const Actions& actions, std::size_t index) {
+std::size_t begin_of_chain(const ActionSequence& actions, std::size_t index) {
   while (index > 0 && ends_at_speed(actions[index - 1])) --index;
   return index;
 }
 
 /// Brakes from the end of the last of the driven actions on, which is a part of the one with this index.
-void brake(Actions& driven, const Actions& actions, std::size_t index) {
+void brake(ActionSequence& driven, const ActionSequence& actions, std::size_t index) {
   for (;; ++index) {
     const Action& planned = actions[index];
     Action& last = driven.back();
-    const core::Inertia& inertia = last.profile->inertia;
-    const core::Position way = planned.to.position - planned.from.position;
+    const Inertia& inertia = last.profile->inertia;
+    const Position way = planned.to.position - planned.from.position;
     const double whole = way.norm();
     const double covered = (last.to.position - planned.from.position).norm();
     const double speed = last.profile->end;
     const double needed = 0.5 * speed * speed * inertia.fall;
     if (covered + needed <= whole + kLeft || end_of_chain(actions, index) == index + 1) {
       const double share = covered + needed < whole ? (covered + needed) / whole : 1.0;
-      last.to.position =
-          share < 1.0 ? core::Position(planned.from.position + share * way) : planned.to.position;
+      last.to.position = share < 1.0 ? Position(planned.from.position + share * way) : planned.to.position;
       last.t_end += speed * inertia.fall;
       last.profile->end = 0.0;
       return;
@@ -64,11 +62,11 @@ void brake(Actions& driven, const Actions& actions, std::size_t index) {
 
 /// When a robot that drives these translations, which follow each other at speed, begins to brake so that it
 /// stands at `t`; at their begin if that is too late.
-double brakes_from(const Actions& chain, double t) {
+double brakes_from(const ActionSequence& chain, double t) {
   // A robot that brakes at speed v stands v times `fall` later. The time at which it stands grows with the
   // time at which it brakes as long as it speeds up or cruises; while it slows down, it brakes already.
   for (const Action& action : chain) {
-    const core::SpeedProfile& profile = *action.profile;
+    const SpeedProfile& profile = *action.profile;
     const double braking = profile.cruise * profile.inertia.fall;  // seconds, from the cruise speed
     const double cruises = action.t_start + profile.rise_time();
     const double slows = action.t_end - profile.fall_time();
@@ -76,29 +74,29 @@ double brakes_from(const Actions& chain, double t) {
       const double before = (cruises + braking - t) / (1.0 + profile.inertia.fall / profile.inertia.rise);
       return std::max(action.t_start, cruises - before);
     }
-    if (t < slows + braking - core::kSameTime) return t - braking;
+    if (t < slows + braking - kSameTime) return t - braking;
   }
   return chain.back().t_end;
 }
 
 /// The time at which actions are cut: the begin or the end of the action under way, if there is less of it on
 /// that side than an action has. One with a profile is not cut: the robot brakes.
-double cut_time(const Actions& actions, double t) {
+double cut_time(const ActionSequence& actions, double t) {
   for (const Action& action : actions) {
     if (action.profile || t <= action.t_start || t >= action.t_end) continue;
-    if (left_of(action, t) < core::kLeastAction) return action.t_end;
+    if (left_of(action, t) < kLeastAction) return action.t_end;
     const Action done = part_until(action, t);
     const bool waits = action.type == Action::Type::wait;
-    if ((waits ? t - action.t_start : core::amount_of(done)) < core::kLeastAction) return action.t_start;
+    if ((waits ? t - action.t_start : amount_of(done)) < kLeastAction) return action.t_start;
   }
   return t;
 }
 
 /// The length of the last actions that follow each other at speed.
-double length_of_last(const Actions& actions) {
+double length_of_last(const ActionSequence& actions) {
   double length = 0.0;
   for (std::size_t k = begin_of_chain(actions, actions.size() - 1); k < actions.size(); ++k) {
-    length += core::amount_of(actions[k]);
+    length += amount_of(actions[k]);
   }
   return length;
 }
@@ -106,13 +104,13 @@ double length_of_last(const Actions& actions) {
 }  // namespace
 
 double left_of(const Action& action, double t) {
-  return action.type == Action::Type::wait ? action.t_end - t : core::amount_of(part_from(action, t));
+  return action.type == Action::Type::wait ? action.t_end - t : amount_of(part_from(action, t));
 }
 
 Action part_until(Action action, double t) {
-  const core::Pose to = pose_at(action, t);
+  const Pose to = pose_at(action, t);
   if (action.profile) {
-    const double speed = core::speed_at(action, t);
+    const double speed = speed_at(action, t);
     if (t - action.t_start <= action.profile->rise_time()) action.profile->cruise = speed;
     action.profile->end = speed;
   }
@@ -122,9 +120,9 @@ Action part_until(Action action, double t) {
 }
 
 Action part_from(Action action, double t) {
-  const core::Pose from = pose_at(action, t);
+  const Pose from = pose_at(action, t);
   if (action.profile) {
-    const double speed = core::speed_at(action, t);
+    const double speed = speed_at(action, t);
     if (t > action.t_end - action.profile->fall_time()) action.profile->cruise = speed;
     action.profile->start = speed;
   }
@@ -133,37 +131,38 @@ Action part_from(Action action, double t) {
   return action;
 }
 
-std::size_t end_of_chain(const Actions& actions, std::size_t first) {
+std::size_t end_of_chain(const ActionSequence& actions, std::size_t first) {
   std::size_t last = first;
   while (last + 1 < actions.size() && ends_at_speed(actions[last]) && actions[last + 1].profile) ++last;
   return last + 1;
 }
 
-Actions driven_from(Actions chain, double t, double speed) {
-  std::vector<core::LimitedPart> parts;
-  for (const Action& action : chain) parts.push_back({core::amount_of(action), action.profile->cruise});
-  const auto profiles = core::fastest_profiles(parts, chain.front().profile->inertia, speed);
+ActionSequence driven_from(ActionSequence chain, double t, double speed) {
+  std::vector<LimitedPart> parts;
+  for (const Action& action : chain) parts.push_back({amount_of(action), action.profile->cruise});
+  const auto profiles = fastest_profiles(parts, chain.front().profile->inertia, speed);
   for (std::size_t k = 0; k < chain.size(); ++k) {
     chain[k].profile = profiles[k];
     chain[k].t_start = t;
-    t += core::duration(profiles[k], parts[k].length);
+    t += duration(profiles[k], parts[k].length);
     chain[k].t_end = t;
   }
   return chain;
 }
 
-Actions at_rest_in_the_end(Actions actions) {
+ActionSequence at_rest_in_the_end(ActionSequence actions) {
   if (actions.empty() || !ends_at_speed(actions.back())) return actions;
   const auto begin =
       actions.begin() + static_cast<std::ptrdiff_t>(begin_of_chain(actions, actions.size() - 1));
-  const Actions chain = driven_from(Actions(begin, actions.end()), begin->t_start, begin->profile->start);
+  const ActionSequence chain =
+      driven_from(ActionSequence(begin, actions.end()), begin->t_start, begin->profile->start);
   std::copy(chain.begin(), chain.end(), begin);
   return actions;
 }
 
-Actions executed_until(const Actions& actions, double t) {
+ActionSequence executed_until(const ActionSequence& actions, double t) {
   t = cut_time(actions, t);
-  Actions done;
+  ActionSequence done;
   for (const Action& action : actions) {
     if (action.t_start >= t - kRoundedTime) break;
     done.push_back(action.t_end <= t + kRoundedTime ? action : part_until(action, t));
@@ -171,10 +170,10 @@ Actions executed_until(const Actions& actions, double t) {
   return done;
 }
 
-Actions braked(const Actions& actions, double t) {
+ActionSequence braked(const ActionSequence& actions, double t) {
   std::size_t index = 0;
   while (index < actions.size() && actions[index].t_end <= t + kRoundedTime) ++index;
-  Actions driven(actions.begin(), actions.begin() + static_cast<std::ptrdiff_t>(index));
+  ActionSequence driven(actions.begin(), actions.begin() + static_cast<std::ptrdiff_t>(index));
   if (index == actions.size() || !actions[index].profile) return driven;
   const Action& under_way = actions[index];
   const bool has_begun = t > under_way.t_start + kRoundedTime;
@@ -183,14 +182,14 @@ Actions braked(const Actions& actions, double t) {
     driven.push_back(under_way);
     return driven;
   }
-  Actions before = driven;
+  ActionSequence before = driven;
   // One that is hardly under way brakes later, so that it drives for more than nothing.
   constexpr double kLater = 1e-6;  // seconds
   for (double later = 0.0; t + later < under_way.t_end; later = std::max(kLater, 2.0 * later)) {
     driven = before;
     driven.push_back(part_until(under_way, std::max(t, under_way.t_start) + later));
     brake(driven, actions, index);
-    if (length_of_last(driven) >= core::kLeastAction) return driven;
+    if (length_of_last(driven) >= kLeastAction) return driven;
     if (under_way.profile->start <= 0.0) return before;
   }
   driven = before;
@@ -199,7 +198,7 @@ Actions braked(const Actions& actions, double t) {
   return driven;
 }
 
-Actions stopped_by(const Actions& actions, double t) {
+ActionSequence stopped_by(const ActionSequence& actions, double t) {
   t = cut_time(actions, t);
   std::size_t index = 0;
   while (index < actions.size() && actions[index].t_end <= t + kRoundedTime) ++index;
@@ -209,9 +208,10 @@ Actions stopped_by(const Actions& actions, double t) {
   // The translations that follow each other at speed, from rest or from the begin of the actions.
   const std::size_t first = begin_of_chain(actions, is_between && !is_cut ? index - 1 : index);
   const auto begin = actions.begin() + static_cast<std::ptrdiff_t>(first);
-  Actions stopped(actions.begin(), begin);
-  const Actions chain(begin, actions.begin() + static_cast<std::ptrdiff_t>(end_of_chain(actions, first)));
-  Actions to_rest;
+  ActionSequence stopped(actions.begin(), begin);
+  const ActionSequence chain(begin,
+                             actions.begin() + static_cast<std::ptrdiff_t>(end_of_chain(actions, first)));
+  ActionSequence to_rest;
   if (chain.front().type == Action::Type::translate) {
     to_rest = braked(chain, brakes_from(chain, t));
   } else if (chain.front().profile->start > 0.0) {
@@ -221,19 +221,19 @@ Actions stopped_by(const Actions& actions, double t) {
   return stopped;
 }
 
-Actions resumed_after(const Actions& stopped, const Actions& actions) {
-  Actions all = stopped;
+ActionSequence resumed_after(const ActionSequence& stopped, const ActionSequence& actions) {
+  ActionSequence all = stopped;
   if (stopped.empty()) return actions;
   const std::size_t index = stopped.size() - 1;
   const Action& last = stopped.back();
   const Action& planned = actions[index];
-  const double left = core::amount_of(planned) - core::amount_of(last);
+  const double left = amount_of(planned) - amount_of(last);
   std::size_t next = index + 1;
   double late = 0.0;
   if (last.profile && (left > kLeft || (planned.profile && planned.profile->end > 0.0))) {
     const std::size_t end = end_of_chain(actions, index);
-    Actions chain(actions.begin() + static_cast<std::ptrdiff_t>(index),
-                  actions.begin() + static_cast<std::ptrdiff_t>(end));
+    ActionSequence chain(actions.begin() + static_cast<std::ptrdiff_t>(index),
+                         actions.begin() + static_cast<std::ptrdiff_t>(end));
     chain.front().from = last.to;
     if (left <= kLeft) chain.erase(chain.begin());
     if (!chain.empty()) {
@@ -242,8 +242,7 @@ Actions resumed_after(const Actions& stopped, const Actions& actions) {
       all.insert(all.end(), chain.begin(), chain.end());
     }
     next = end;
-  } else if (!last.profile && last.t_end < planned.t_end &&
-             left_of(planned, last.t_end) >= core::kLeastAction) {
+  } else if (!last.profile && last.t_end < planned.t_end && left_of(planned, last.t_end) >= kLeastAction) {
     Action later = planned;
     later.t_start = last.t_end;
     later.from = last.to;
@@ -257,4 +256,4 @@ Actions resumed_after(const Actions& stopped, const Actions& actions) {
   return all;
 }
 
-}  // namespace fleetplan::api
+}  // namespace fleetplan::core

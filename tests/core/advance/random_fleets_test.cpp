@@ -12,7 +12,7 @@
 #include <variant>
 #include <vector>
 
-#include "api/advance/advance.h"
+#include "core/advance/advance.h"
 #include "core/geometry/tolerance.h"
 #include "core/planner.h"
 #include "core/verify/check_rules.h"
@@ -21,13 +21,13 @@
 #include "tests/support/random_problem.h"
 #include "tests/support/summary.h"
 
-namespace fleetplan::api {
+namespace fleetplan::core {
 namespace TEST_FILE {
 
 using support::Dice;
 
-core::StopCondition a_moment() {
-  return core::StopCondition(core::StopCondition::Clock::now() + std::chrono::milliseconds(200));
+StopCondition a_moment() {
+  return StopCondition(StopCondition::Clock::now() + std::chrono::milliseconds(200));
 }
 
 /// The fleet from round to round.
@@ -36,25 +36,25 @@ class Fleet {
   explicit Fleet(Dice& dice) : dice_(dice), problem_(random_problem(dice)) {
     options_ = support::random_options(dice, problem_);
     options_.start_safe_interval = 0.0;
-    if (dice.chance(0.5)) options_.replan = core::PlanOptions::Replan::where_needed;
+    if (dice.chance(0.5)) options_.replan = PlanOptions::Replan::where_needed;
     commits_ = dice.chance(0.5);
   }
 
   /// Plans, and returns what everybody executes.
   std::vector<Execution> plan() {
-    const core::Plan plan = core::plan(problem_, options_, a_moment());
+    const Plan plan = core::plan(problem_, options_, a_moment());
     EXPECT_TRUE(plan.unavoidable.empty())
         << "robot " << plan.unavoidable.front().robot << " at " << plan.unavoidable.front().t;
     expect_safe(plan);
     std::vector<Execution> executions;
-    for (const core::Robot& robot : problem_.robots()) executions.push_back({robot.committed});
-    for (const core::RobotPlan& robot : plan.plans) executions[robot.robot] = {robot.actions, true};
+    for (const Robot& robot : problem_.robots()) executions.push_back({robot.committed});
+    for (const RobotPlan& robot : plan.plans) executions[robot.robot] = {robot.actions, true};
     makespan_ = plan.objectives.makespan;
     return executions;
   }
 
   /// Something happens to some robots. Goals are those of others, so that only the way there is new.
-  std::vector<core::Robot> at_a_later_moment(std::vector<Execution> executions) {
+  std::vector<Robot> at_a_later_moment(std::vector<Execution> executions) {
     Moment moment;
     moment.pose_tolerance = 1e-6;
     moment.at = dice_.between(0.0, 0.3 * makespan_);
@@ -68,75 +68,74 @@ class Fleet {
       const auto& goal = problem_.robots()[k].goal;
       if (goal && dice_.chance(0.2)) execution.goals = {*goal};
     }
-    core::Work stop = core::Work::unbounded();
+    Work stop = Work::unbounded();
     Motions motions{braking_of(problem_.robots(), executions, moment, stop)};
     return advanced(problem_.robots(), executions, moment, motions, stop);
   }
 
   /// Returns whether the fleet is one that can be planned for: a late robot may be where another one is.
-  bool go_on(std::vector<core::Robot> robots) {
-    auto created = core::Problem::create(problem_.grid(), std::move(robots), core::StopCondition::never());
-    if (const auto* faults = std::get_if<core::ProblemFaults>(&created)) {
-      for (const core::ProblemFault& fault : faults->listed) {
-        EXPECT_NE(fault.kind, core::ProblemFault::Kind::committed_collision)
+  bool go_on(std::vector<Robot> robots) {
+    auto created = Problem::create(problem_.grid(), std::move(robots), StopCondition::never());
+    if (const auto* faults = std::get_if<ProblemFaults>(&created)) {
+      for (const ProblemFault& fault : faults->listed) {
+        EXPECT_NE(fault.kind, ProblemFault::Kind::committed_collision)
             << fault.robot << " and " << fault.other << " at " << fault.t;
       }
       return false;
     }
-    problem_ = std::move(std::get<core::Problem>(created));
+    problem_ = std::move(std::get<Problem>(created));
     return true;
   }
 
-  const core::Problem& problem() const { return problem_; }
+  const Problem& problem() const { return problem_; }
 
  private:
-  static core::Problem random_problem(Dice& dice) {
-    const core::Problem problem = support::random_problem(dice, 12);
-    std::vector<core::Robot> robots = problem.robots();
+  static Problem random_problem(Dice& dice) {
+    const Problem problem = support::random_problem(dice, 12);
+    std::vector<Robot> robots = problem.robots();
     if (dice.chance(0.3)) {
-      for (core::Robot& robot : robots) robot.vicinity = problem.grid().resolution() * dice.between(0.0, 0.5);
+      for (Robot& robot : robots) robot.vicinity = problem.grid().resolution() * dice.between(0.0, 0.5);
     }
-    return std::get<core::Problem>(
-        core::Problem::create(problem.grid(), std::move(robots), core::StopCondition::never()));
+    return std::get<Problem>(Problem::create(problem.grid(), std::move(robots), StopCondition::never()));
   }
 
-  void expect_safe(const core::Plan& plan) const {
-    core::CheckRules rules;
-    rules.tolerances = core::plan_tolerances(problem_.grid(), problem_.robots(), plan.plans);
+  void expect_safe(const Plan& plan) const {
+    CheckRules rules;
+    rules.tolerances = plan_tolerances(problem_.grid(), problem_.robots(), plan.plans);
     rules.wait_before_move = options_.wait_before_move;
-    const auto report = core::verify({problem_.grid(), problem_.robots(), {}}, plan.plans, rules,
-                                     core::StopCondition::never());
+    const auto report =
+        verify({problem_.grid(), problem_.robots(), {}}, plan.plans, rules, StopCondition::never());
     EXPECT_TRUE(report->valid()) << support::text(*report);
   }
 
   void fall_behind(Execution& execution, double at) {
     const double then = std::max(0.0, at - dice_.between(0.0, 1.0));
-    for (const core::Action& action : execution.actions) {
+    for (const Action& action : execution.actions) {
       if (action.t_start <= then && then < action.t_end)
         execution.measured = support::pose_within(action, then);
     }
   }
 
   Dice& dice_;
-  core::Problem problem_;
-  core::PlanOptions options_;
+  Problem problem_;
+  PlanOptions options_;
   bool commits_ = false;
   double makespan_ = 0.0;
 };
 
 /// All robots execute what is committed, and stay.
-void expect_that_all_may_stop(const core::Problem& problem) {
-  std::vector<core::Robot> robots = problem.robots();
-  std::vector<core::RobotPlan> stops;
+void expect_that_all_may_stop(const Problem& problem) {
+  std::vector<Robot> robots = problem.robots();
+  std::vector<RobotPlan> stops;
   for (std::size_t k = 0; k < robots.size(); ++k) {
     robots[k].goal.reset();
     robots[k].via.clear();
     robots[k].previous.reset();
     stops.push_back({k, robots[k].committed_until(), robots[k].committed});
   }
-  core::CheckRules rules;
-  rules.tolerances.assign(robots.size(), core::Tolerance::of_all(core::kContactTolerance));
-  const auto report = core::verify({problem.grid(), robots, {}}, stops, rules, core::StopCondition::never());
+  CheckRules rules;
+  rules.tolerances.assign(robots.size(), Tolerance::of_all(kContactTolerance));
+  const auto report = verify({problem.grid(), robots, {}}, stops, rules, StopCondition::never());
   EXPECT_TRUE(report->valid()) << support::text(*report);
 }
 
@@ -158,4 +157,4 @@ TEST(RandomFleets, MayStopWhereTheirCommitmentsEndWhateverHappens) {
 }
 
 }  // namespace TEST_FILE
-}  // namespace fleetplan::api
+}  // namespace fleetplan::core

@@ -1,22 +1,21 @@
+#include "core/advance/released.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
 #include <utility>
 
-#include "api/advance/advance.h"
+#include "core/advance/inertia.h"
+#include "core/advance/timeline.h"
 #include "core/execution/executed_actions.h"
 #include "core/geometry/tolerance.h"
 
-namespace fleetplan::api {
+namespace fleetplan::core {
 
 namespace {
 
-using core::Action;
-using core::ActionPlace;
-using Actions = std::vector<Action>;
-
 /// The place, at an end of its action if that is nearer than rounding (seconds).
-ActionPlace at_end(const Actions& actions, ActionPlace place) {
+ActionPlace at_end(const ActionSequence& actions, ActionPlace place) {
   constexpr double kRounding = 1e-9;
   const double duration = actions[place.action].t_end - actions[place.action].t_start;
   if (place.fraction * duration <= kRounding) {
@@ -28,28 +27,29 @@ ActionPlace at_end(const Actions& actions, ActionPlace place) {
 }
 
 /// The actions before a place, of which the one under way there is cut. The robot stands there.
-Actions before_place(const Actions& actions, const ActionPlace& place) {
+ActionSequence before_place(const ActionSequence& actions, const ActionPlace& place) {
   const auto index = static_cast<std::ptrdiff_t>(place.action);
-  Actions before(actions.begin(), actions.begin() + index);
+  ActionSequence before(actions.begin(), actions.begin() + index);
   if (place.fraction > 0.0) {
     const Action& part = actions[place.action];
-    before.push_back(part_until(part, core::time_at_share(part, place.fraction)));
+    before.push_back(part_until(part, time_at_share(part, place.fraction)));
   }
   return at_rest_in_the_end(std::move(before));
 }
 
 /// Lets the first actions begin at rest, if they were planned to be under way.
-void start_at_rest(Actions& actions) {
+void start_at_rest(ActionSequence& actions) {
   if (actions.empty() || !actions.front().profile || actions.front().profile->start <= 0.0) return;
   const auto end = actions.begin() + static_cast<std::ptrdiff_t>(end_of_chain(actions, 0));
-  const Actions chain = driven_from(Actions(actions.begin(), end), actions.front().t_start, 0.0);
+  const ActionSequence chain =
+      driven_from(ActionSequence(actions.begin(), end), actions.front().t_start, 0.0);
   std::copy(chain.begin(), chain.end(), actions.begin());
 }
 
 /// The actions after a place, as many seconds earlier.
-Actions after_place(const Actions& actions, const ActionPlace& place, double earlier) {
-  const Actions before = before_place(actions, place);
-  Actions after = resumed_after(before, actions);
+ActionSequence after_place(const ActionSequence& actions, const ActionPlace& place, double earlier) {
+  const ActionSequence before = before_place(actions, place);
+  ActionSequence after = resumed_after(before, actions);
   after.erase(after.begin(), after.begin() + static_cast<std::ptrdiff_t>(before.size()));
   start_at_rest(after);
   for (Action& action : after) {
@@ -62,8 +62,8 @@ Actions after_place(const Actions& actions, const ActionPlace& place, double ear
 /// What the waits of a robot are for.
 class Waits {
  public:
-  Waits(const core::Robot& robot, const Actions& actions, double wait_before_move)
-      : robot_(robot), actions_(actions), purposes_(core::wait_purposes(robot, actions, wait_before_move)) {}
+  Waits(const Robot& robot, const ActionSequence& actions, double wait_before_move)
+      : robot_(robot), actions_(actions), purposes_(wait_purposes(robot, actions, wait_before_move)) {}
 
   /// Whether the action is a wait that only gives way to others.
   bool gives_way(std::size_t index) const {
@@ -76,18 +76,18 @@ class Waits {
   double duration(std::size_t index, const Action& part) const {
     const double planned = part.t_end - part.t_start;
     if (part.type != Action::Type::wait) return planned;
-    return std::min(planned, std::max(purposes_[index].least, core::kShortestWait));
+    return std::min(planned, std::max(purposes_[index].least, kShortestWait));
   }
 
  private:
-  const core::Robot& robot_;
-  const Actions& actions_;
-  std::vector<core::WaitPurpose> purposes_;
+  const Robot& robot_;
+  const ActionSequence& actions_;
+  std::vector<WaitPurpose> purposes_;
 };
 
 /// Moves the actions from an index on together, without waits that give way, so that they end at `t_end`.
-void pack(Actions& actions, std::size_t first, const Waits& waits, double t_end) {
-  Actions packed;
+void pack(ActionSequence& actions, std::size_t first, const Waits& waits, double t_end) {
+  ActionSequence packed;
   double now = 0.0;
   for (std::size_t k = first; k < actions.size(); ++k) {
     if (waits.gives_way(k)) continue;
@@ -105,13 +105,13 @@ void pack(Actions& actions, std::size_t first, const Waits& waits, double t_end)
 }
 
 /// Whether a wait is released in part.
-bool is_cut_wait(const Actions& actions, const ActionPlace& place) {
+bool is_cut_wait(const ActionSequence& actions, const ActionPlace& place) {
   return actions[place.action].type == Action::Type::wait && place.fraction > 0.0 && place.fraction < 1.0;
 }
 
 /// Lets the waits for goals among the actions from `first` to `end` last until these have been served. The
 /// clock of the actions is `at` at their beginning.
-void serve_in_time(const core::Robot& robot, Actions& actions, std::size_t first, std::size_t end,
+void serve_in_time(const Robot& robot, ActionSequence& actions, std::size_t first, std::size_t end,
                    double at) {
   double late = 0.0;
   for (std::size_t k = first; k < actions.size(); ++k) {
@@ -129,7 +129,7 @@ void serve_in_time(const core::Robot& robot, Actions& actions, std::size_t first
 
 }  // namespace
 
-ReleasedRest released_rest(const core::Robot& robot, const Execution& execution, const Moment& moment) {
+ReleasedRest released_rest(const Robot& robot, const Execution& execution, const Moment& moment) {
   const ActionPlace released = at_end(execution.actions, *execution.reported->released);
   const Waits waits(robot, execution.actions, moment.wait_before_move);
   Execution until = execution;
@@ -138,7 +138,7 @@ ReleasedRest released_rest(const core::Robot& robot, const Execution& execution,
   until.actions = before_place(execution.actions, released);
   const bool is_cut = place.action == released.action && released.fraction > 0.0;
   if (is_cut) place.fraction = std::min(1.0, place.fraction / released.fraction);
-  Actions after = after_place(execution.actions, released, moment.at);
+  ActionSequence after = after_place(execution.actions, released, moment.at);
   if (place.action >= until.actions.size()) {
     // It stands where it may stand, wherever it was measured.
     const Action& next = execution.actions[place.action];
@@ -156,4 +156,4 @@ ReleasedRest released_rest(const core::Robot& robot, const Execution& execution,
   return {std::move(rest), std::move(after)};
 }
 
-}  // namespace fleetplan::api
+}  // namespace fleetplan::core

@@ -1,3 +1,5 @@
+#include "core/advance/committed_motion.h"
+
 // Commitments that end early, or late, so that robots that execute nothing else do not collide.
 
 #include <algorithm>
@@ -7,20 +9,16 @@
 #include <span>
 #include <utility>
 
-#include "api/advance/advance.h"
-#include "api/advance/pieces.h"
+#include "core/advance/inertia.h"
+#include "core/advance/pieces.h"
+#include "core/advance/timeline.h"
 #include "core/geometry/position.h"
 #include "core/geometry/tolerance.h"
 #include "core/model/loads.h"
 
-namespace fleetplan::api {
-
-using core::Position;
+namespace fleetplan::core {
 
 namespace {
-
-using core::Action;
-using Actions = std::vector<Action>;
 
 /// Disks that overlap by less only touch (metres): far below the contact tolerance, far above rounding.
 constexpr double kTouch = 1e-8;
@@ -59,20 +57,19 @@ std::optional<Meeting> overlap_by_growth(const Piece& a, const Piece& b, double 
 
 class Clearing {
  public:
-  Clearing(std::vector<core::Robot>& robots, const std::vector<double>& margins, Motions& motions,
-           core::Work& work)
+  Clearing(std::vector<Robot>& robots, const std::vector<double>& margins, Motions& motions, Work& work)
       : robots_(robots),
         margins_(margins),
         motions_(motions),
         work_(work),
         driven_on_(robots.size(), 0),
         waits_(robots.size(), true) {
-    for (const core::Robot& robot : robots) {
-      reach_.push_back(core::largest_radius(robot) + margins[pieces_.size()] + driven(robot.committed));
+    for (const Robot& robot : robots) {
+      reach_.push_back(largest_radius(robot) + margins[pieces_.size()] + driven(robot.committed));
       waiting_.push_back(pieces_.size());
       pieces_.push_back(committed_pieces(robot));
     }
-    for (const core::MovingObstacle& obstacle : motions.obstacles) obstacles_.push_back(pieces_of(obstacle));
+    for (const MovingObstacle& obstacle : motions.obstacles) obstacles_.push_back(pieces_of(obstacle));
   }
 
   void run() {
@@ -92,7 +89,7 @@ class Clearing {
 
  private:
   /// The length of the path.
-  static double driven(const Actions& actions) {
+  static double driven(const ActionSequence& actions) {
     double length = 0.0;
     for (const Action& action : actions) length += (action.to.position - action.from.position).norm();
     return length;
@@ -106,8 +103,8 @@ class Clearing {
 
   /// Between the bare disks at the moment; negative if they overlap, metres.
   double gap_now(std::size_t robot, std::size_t other) const {
-    const core::Robot& a = robots_[robot];
-    const core::Robot& b = robots_[other];
+    const Robot& a = robots_[robot];
+    const Robot& b = robots_[other];
     return (a.start.position - b.start.position).norm() - a.radius - b.radius;
   }
 
@@ -124,7 +121,7 @@ class Clearing {
 
   /// Until when a robot that drives at the moment cannot stop, seconds; 0 if it stands.
   double cannot_stop_before(std::size_t index) const {
-    const std::vector<Actions>& braking = motions_.braking;
+    const std::vector<ActionSequence>& braking = motions_.braking;
     return index < braking.size() && !braking[index].empty() ? braking[index].back().t_end : 0.0;
   }
 
@@ -173,7 +170,7 @@ class Clearing {
     Piece stay{t, mine.back().end, at_t->at(t), {0.0, 0.0}, at_t->radius};
     if (robots_[robot].linear_inertia().is_limited) {
       work_.met_after(kWorkOfAnAction * robots_[robot].committed.size());
-      const Actions stopped = stopped_by(robots_[robot].committed, t);
+      const ActionSequence stopped = stopped_by(robots_[robot].committed, t);
       stay.from = stopped.empty() ? robots_[robot].start.position : stopped.back().to.position;
     }
     const double margin = this->margin(robot, other) - kTouch;
@@ -220,7 +217,7 @@ class Clearing {
   /// drives on no more often than its course has actions, even if its commitment is cut again.
   std::size_t next_stop(std::size_t index, std::size_t count) const {
     if (index >= motions_.courses.size()) return count;
-    const Actions& course = motions_.courses[index];
+    const ActionSequence& course = motions_.courses[index];
     for (std::size_t k = std::max(count, driven_on_[index]); k < course.size(); ++k) {
       const bool stands = course[k].type == Action::Type::translate &&
                           (k + 1 == course.size() || !goes_on(course[k], course[k + 1]));
@@ -229,15 +226,15 @@ class Clearing {
     return count;
   }
 
-  Actions first_of_course(std::size_t index, std::size_t count) const {
+  ActionSequence first_of_course(std::size_t index, std::size_t count) const {
     const auto begin = motions_.courses[index].begin();
     return {begin, begin + static_cast<std::ptrdiff_t>(count)};
   }
 
   /// The pieces of a robot that is committed to these actions.
-  std::vector<Piece> pieces_if(std::size_t index, Actions committed) {
+  std::vector<Piece> pieces_if(std::size_t index, ActionSequence committed) {
     work_.met_after(kWorkOfAnAction * (1 + committed.size()));
-    core::Robot robot = robots_[index];
+    Robot robot = robots_[index];
     robot.previous.reset();
     robot.committed = std::move(committed);
     return committed_pieces(robot);
@@ -254,8 +251,8 @@ class Clearing {
     if ((mine > 0 && first_touch(my_pieces)) || (theirs > 0 && first_touch(their_pieces))) return false;
     if (keep_apart(my_pieces, their_pieces, margin)) return true;
     const auto stopped = [&](std::size_t index) {
-      const std::vector<Actions>& braking = motions_.braking;
-      return pieces_if(index, index < braking.size() ? braking[index] : Actions());
+      const std::vector<ActionSequence>& braking = motions_.braking;
+      return pieces_if(index, index < braking.size() ? braking[index] : ActionSequence());
     };
     if (mine == 0) return keep_apart(stopped(robot), their_pieces, margin);
     return theirs == 0 && keep_apart(my_pieces, stopped(other), margin);
@@ -269,14 +266,14 @@ class Clearing {
 
   /// Commits a robot to the first actions of its course. It does not stop before.
   void commit_to(std::size_t index, std::size_t count) {
-    core::Robot& robot = robots_[index];
+    Robot& robot = robots_[index];
     driven_on_[index] = count;
     robot.committed = first_of_course(index, count);
     if (robot.previous) robot.previous = motions_.courses[index];
     motions_.braking.resize(robots_.size());
     motions_.braking[index] = robot.committed;
     pieces_[index] = committed_pieces(robot);
-    reach_[index] = core::largest_radius(robot) + margins_[index] + driven(robot.committed);
+    reach_[index] = largest_radius(robot) + margins_[index] + driven(robot.committed);
     for (std::size_t k = 0; k < robots_.size(); ++k) {
       if (k == index || may_meet(k, index)) compare_again(k);
     }
@@ -411,11 +408,11 @@ class Clearing {
   }
 
   void cut(std::size_t index, double t) {
-    core::Robot& robot = robots_[index];
+    Robot& robot = robots_[index];
     work_.met_after(kWorkOfAPiece * pieces_[index].size());
     if (!shortens(index, t)) return;
     if (t < kNothing) t = 0.0;
-    Actions stopped = stopped_by(robot.committed, t);
+    ActionSequence stopped = stopped_by(robot.committed, t);
     const double end = stopped.empty() ? 0.0 : stopped.back().t_end;
     if (end > t + kSameEnd) {
       end_abruptly(robot, t);
@@ -428,16 +425,16 @@ class Clearing {
   }
 
   /// A robot that cannot stop before it touches another one: what is known of its motion ends there.
-  static void end_abruptly(core::Robot& robot, double t) {
+  static void end_abruptly(Robot& robot, double t) {
     robot.committed = executed_until(robot.committed, t);
     if (!robot.committed.empty()) robot.committed.back().profile.reset();
     robot.previous.reset();
   }
 
-  std::vector<core::Robot>& robots_;
+  std::vector<Robot>& robots_;
   const std::vector<double>& margins_;  // by robot
   Motions& motions_;
-  core::Work& work_;
+  Work& work_;
   std::vector<std::vector<Piece>> pieces_;     // by robot
   std::vector<std::vector<Piece>> obstacles_;  // by obstacle
   std::vector<double> reach_;           // from the start, with disk and margin; of the commitment as it was
@@ -448,9 +445,24 @@ class Clearing {
 
 }  // namespace
 
-void clear_commitments(std::vector<core::Robot>& robots, const std::vector<double>& margins, Motions& motions,
-                       core::Work& work) {
+std::vector<double> margins_of(const std::vector<Robot>& robots, const std::vector<Execution>& executions,
+                               const Moment& moment, const std::vector<Robot>& next, Work& work) {
+  // Robots that are released to places where they touch may go there. Two of them stay within the tolerance.
+  constexpr double kReleased = -0.4 * kContactTolerance;
+  std::vector<double> margins(robots.size(), moment.stand_until ? kReleased : 0.0);
+  if (moment.stand_until) return margins;
+  for (std::size_t k = 0; k < next.size(); ++k) {
+    if (work.met_after(1 + executions[k].actions.size())) break;
+    const Pose planned = planned_pose(robots[k], executions[k].actions, moment.at);
+    const double off = (next[k].start.position - planned.position).norm();
+    margins[k] = robots[k].vicinity + moment.inflation - std::min(off, 0.5 * moment.inflation);
+  }
+  return margins;
+}
+
+void clear_commitments(std::vector<Robot>& robots, const std::vector<double>& margins, Motions& motions,
+                       Work& work) {
   Clearing(robots, margins, motions, work).run();
 }
 
-}  // namespace fleetplan::api
+}  // namespace fleetplan::core

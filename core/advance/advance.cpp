@@ -1,4 +1,4 @@
-#include "api/advance/advance.h"
+#include "core/advance/advance.h"
 
 #include <fleetplan/limits.h>
 
@@ -7,36 +7,35 @@
 #include <cstddef>
 #include <utility>
 
+#include "core/advance/inertia.h"
+#include "core/advance/released.h"
+#include "core/advance/timeline.h"
 #include "core/geometry/tolerance.h"
 #include "core/model/itinerary.h"
 #include "core/model/loads.h"
 
-namespace fleetplan::api {
+namespace fleetplan::core {
 
 namespace {
-
-using core::Action;
-using core::ActionPlace;
-using Actions = std::vector<Action>;
 
 /// The tolerance of a service, seconds: rounding of times, far below what matters.
 constexpr double kSameService = 1e-9;
 
 /// The goals that are left when a robot has executed these actions, and how many it has visited.
 struct GoalsLeft {
-  std::vector<core::Goal> goals;
+  std::vector<Goal> goals;
   std::size_t visited = 0;
-  core::Load load;   // of the robot
+  Load load;         // of the robot
   double age = 0.0;  // seconds for which the next one could have been served already
 };
 
 /// Whether the last goal has been served by the rest at the end of a plan.
-bool has_served_last(const core::Robot& robot, const Actions& actions, double progress) {
-  return core::last_service_end(robot, actions) <= progress + kSameService;
+bool has_served_last(const Robot& robot, const ActionSequence& actions, double progress) {
+  return last_service_end(robot, actions) <= progress + kSameService;
 }
 
 /// The first of these goals that changes the radius.
-std::optional<std::size_t> first_new_radius(const core::Robot& robot, std::size_t begin, std::size_t end) {
+std::optional<std::size_t> first_new_radius(const Robot& robot, std::size_t begin, std::size_t end) {
   for (std::size_t k = begin; k < end; ++k) {
     if (robot.goal_at(k).radius_after) return k;
   }
@@ -44,8 +43,8 @@ std::optional<std::size_t> first_new_radius(const core::Robot& robot, std::size_
 }
 
 /// Gives the load after a goal that is served, once.
-void take_load(core::Goal& goal, core::Load& load) {
-  load = core::load_after(load, goal);
+void take_load(Goal& goal, Load& load) {
+  load = load_after(load, goal);
   goal.radius_after.reset();
   goal.linear_speed_after.reset();
   goal.linear_acceleration_after.reset();
@@ -60,19 +59,19 @@ std::optional<double> service_left_of(const Execution& execution, std::size_t go
 }
 
 /// `progress`: the planned time of what the robot has executed of its actions. It stands after the last one.
-GoalsLeft goals_left(const core::Robot& robot, const Execution& execution, double progress, double at) {
-  const Actions& actions = execution.actions;
-  core::Robot past = robot;
+GoalsLeft goals_left(const Robot& robot, const Execution& execution, double progress, double at) {
+  const ActionSequence& actions = execution.actions;
+  Robot past = robot;
   past.committed = executed_until(actions, progress);
   if (past.committed.empty() && execution.planned) {  // what its plan serves at the start
     past.committed.push_back({Action::Type::wait, 0.0, 0.0, robot.start, robot.start});
   }
-  const std::size_t visited_by_plan = core::itinerary_of(past).first_goal;
+  const std::size_t visited_by_plan = itinerary_of(past).first_goal;
   if (past.committed_until() < progress) {
-    const core::Pose pose = past.committed_end();
+    const Pose pose = past.committed_end();
     past.committed.push_back({Action::Type::wait, past.committed_until(), progress, pose, pose});
   }
-  const core::Itinerary itinerary = core::itinerary_of(past);
+  const Itinerary itinerary = itinerary_of(past);
   GoalsLeft left;
   // Nobody has made room for a robot without a plan: it has been served, but its load is still to come.
   const auto load =
@@ -80,18 +79,18 @@ GoalsLeft goals_left(const core::Robot& robot, const Execution& execution, doubl
   left.visited =
       std::min(load.value_or(itinerary.first_goal), execution.first_unserved.value_or(robot.goal_count()));
   for (std::size_t k = left.visited; k < robot.goal_count(); ++k) {
-    core::Goal goal = robot.goal_at(k);
+    Goal goal = robot.goal_at(k);
     goal.not_before = std::max(0.0, goal.not_before - at);
     if (goal.due) goal.due = std::max(-kLongestTime, *goal.due - at);
     left.goals.push_back(goal);
   }
-  left.load = core::loads_of(robot)[left.visited];
+  left.load = loads_of(robot)[left.visited];
   if (left.goals.empty()) return left;
   double due = itinerary.visited.empty() ? -robot.goal_age : itinerary.visited.back().t_leave;
   const double not_before = robot.goal_at(left.visited).not_before;
   if (not_before > 0.0) due = std::max(due, not_before);
   left.age = std::clamp(at - due, 0.0, kLongestTime);
-  core::Goal& last = left.goals.back();
+  Goal& last = left.goals.back();
   const bool matters = last.changes_load() || execution.stays_when_served;
   const bool serves_all = execution.planned && !execution.first_unserved;
   const bool is_served = matters && serves_all && has_served_last(robot, actions, progress);
@@ -101,7 +100,7 @@ GoalsLeft goals_left(const core::Robot& robot, const Execution& execution, doubl
     left.goals.clear();
     return left;
   }
-  core::Goal& next = left.goals.front();
+  Goal& next = left.goals.front();
   const auto reported = service_left_of(execution, left.visited);
   const double served = left.visited < itinerary.first_goal ? next.service : itinerary.service_done;
   next.service = load ? 0.0 : reported.value_or(std::max(0.0, next.service - served));
@@ -109,7 +108,7 @@ GoalsLeft goals_left(const core::Robot& robot, const Execution& execution, doubl
   return left;
 }
 
-void set_goals(core::Robot& robot, std::vector<core::Goal> goals) {
+void set_goals(Robot& robot, std::vector<Goal> goals) {
   robot.goal.reset();
   if (!goals.empty()) {
     robot.goal = goals.back();
@@ -119,7 +118,7 @@ void set_goals(core::Robot& robot, std::vector<core::Goal> goals) {
 }
 
 /// The wait for a goal is named after its new number, or has no name if the goal is behind.
-void renumber(Actions& actions, std::size_t visited) {
+void renumber(ActionSequence& actions, std::size_t visited) {
   for (Action& action : actions) {
     if (!action.goal) continue;
     if (*action.goal < visited) {
@@ -132,19 +131,19 @@ void renumber(Actions& actions, std::size_t visited) {
 
 /// The number of these goals that the committed actions of a robot serve, up to the last one that changes its
 /// load.
-std::size_t count_of_passed(const core::Robot& next, const std::vector<core::Goal>& goals) {
+std::size_t count_of_passed(const Robot& next, const std::vector<Goal>& goals) {
   if (next.committed.empty()) return 0;
-  core::Robot passing = next;
+  Robot passing = next;
   passing.via = goals;
   passing.goal.emplace().anywhere = true;  // the last goal always remains: so all of these may be served
-  std::size_t count = core::served_goals(passing, next.committed).visits.size();
+  std::size_t count = served_goals(passing, next.committed).visits.size();
   while (count > 0 && !goals[count - 1].changes_load()) --count;
   return count;
 }
 
 /// Gives a robot other goals than those that are left. Those that its commitment passes, and that change its
 /// load, come before them. A robot that gets none parks where its commitment ends.
-void set_other_goals(core::Robot& next, std::vector<core::Goal> left, const std::vector<core::Goal>& other) {
+void set_other_goals(Robot& next, std::vector<Goal> left, const std::vector<Goal>& other) {
   left.resize(count_of_passed(next, left));
   for (Action& action : next.committed) {
     if (action.goal && *action.goal >= left.size()) action.goal.reset();
@@ -157,15 +156,15 @@ void set_other_goals(core::Robot& next, std::vector<core::Goal> left, const std:
 }
 
 /// A service under way and the wait that is left of it end together, whatever the rounding.
-void align_service(core::Robot& robot, const Remainder& rest) {
+void align_service(Robot& robot, const Remainder& rest) {
   if (robot.goal_count() == 0 || rest.actions.empty() || rest.actions.front().goal != 0U) return;
-  core::Goal& next = robot.via.empty() ? *robot.goal : robot.via.front();
+  Goal& next = robot.via.empty() ? *robot.goal : robot.via.front();
   const double end = rest.actions.front().t_end;
   if (next.not_before == 0.0 && std::abs(end - next.service) <= kSameService) next.service = end;
 }
 
 /// Until when the actions are committed.
-double horizon(const Actions& actions, const Moment& moment) {
+double horizon(const ActionSequence& actions, const Moment& moment) {
   std::size_t move = 0;
   while (move < actions.size() && actions[move].type == Action::Type::wait) ++move;
   double until = moment.commit.value_or(move == 0 && !actions.empty() ? actions.front().t_end : 0.0);
@@ -183,12 +182,12 @@ struct Located {
   bool is_elsewhere = false;  // measured further from there than the tolerance
 };
 
-Located locate(const core::Robot& robot, const Execution& execution, const Moment& moment) {
-  const Actions& actions = execution.actions;
+Located locate(const Robot& robot, const Execution& execution, const Moment& moment) {
+  const ActionSequence& actions = execution.actions;
   const auto& measured = execution.measured;
   if (execution.reported) {
     const TimedProgress progress = reported_progress(actions, *execution.reported);
-    const core::Pose there = pose_of(actions, *execution.reported);
+    const Pose there = pose_of(actions, *execution.reported);
     return {progress, measured && !is_near(there, *measured, moment.pose_tolerance)};
   }
   const TimedProgress planned = planned_progress(actions, moment.at);
@@ -199,7 +198,7 @@ Located locate(const core::Robot& robot, const Execution& execution, const Momen
 
 /// Lets an early robot drive on where its plan has no stop between the translation under way and the next
 /// one, and wait for its planned time after that.
-void wait_after_line(Actions& rest) {
+void wait_after_line(ActionSequence& rest) {
   std::size_t last = 2;
   while (last + 1 < rest.size() && goes_on(rest[last], rest[last + 1])) ++last;
   const double early = rest[1].t_end - rest[1].t_start;
@@ -207,16 +206,16 @@ void wait_after_line(Actions& rest) {
     rest[k].t_start -= early;
     rest[k].t_end -= early;
   }
-  const core::Pose& end = rest[last].to;
+  const Pose& end = rest[last].to;
   const Action wait{Action::Type::wait, rest[last].t_end, rest[last].t_end + early, end, end};
   rest.insert(rest.begin() + static_cast<std::ptrdiff_t>(last) + 1, wait);
   rest.erase(rest.begin() + 1);
 }
 
 /// What it does from there on.
-Remainder remainder_of(const core::Robot& robot, const Execution& execution, const Located& located,
+Remainder remainder_of(const Robot& robot, const Execution& execution, const Located& located,
                        const Moment& moment) {
-  const Actions& actions = execution.actions;
+  const ActionSequence& actions = execution.actions;
   const auto& measured = execution.measured;
   const TimedProgress& progress = located.progress;
   if (located.is_elsewhere) return {*measured, {}};
@@ -234,7 +233,7 @@ Remainder remainder_of(const core::Robot& robot, const Execution& execution, con
 
 /// Until when it has served goals, on the clock of its actions. Who is still on the way to where an action
 /// ends has served nothing there, however near it is, and whatever it reports.
-double served_until(const core::Robot& robot, const Execution& execution, const Located& located,
+double served_until(const Robot& robot, const Execution& execution, const Located& located,
                     const Moment& moment) {
   const auto [index, t] = located.progress;
   if (located.is_elsewhere || index >= execution.actions.size()) return t;
@@ -247,15 +246,15 @@ double served_until(const core::Robot& robot, const Execution& execution, const 
   return goes_on ? action.t_start : t;
 }
 
-GoalsLeft goals_left(const core::Robot& robot, const Execution& execution, const Located& located,
+GoalsLeft goals_left(const Robot& robot, const Execution& execution, const Located& located,
                      const Moment& moment) {
   return goals_left(robot, execution, served_until(robot, execution, located, moment), moment.at);
 }
 
 /// Whether a robot that is so far in its actions is on the way, not only about to set out. Its own word
 /// counts.
-bool drives(const core::Robot& robot, const Execution& execution, const TimedProgress& progress) {
-  const Actions& actions = execution.actions;
+bool drives(const Robot& robot, const Execution& execution, const TimedProgress& progress) {
+  const ActionSequence& actions = execution.actions;
   const auto [index, t] = progress;
   const auto& speed = execution.speed;
   if (speed && std::abs(*speed) < kLeastLinearSpeed) return false;
@@ -267,12 +266,12 @@ bool drives(const core::Robot& robot, const Execution& execution, const TimedPro
   return index > 0 ? goes_on(actions[index - 1], actions[index]) : !robot.committed.empty();
 }
 
-bool needs_time_to_stop(const core::Robot& robot) {
+bool needs_time_to_stop(const Robot& robot) {
   return robot.linear_inertia().is_limited || robot.angular_inertia().is_limited;
 }
 
 /// Whether the actions from an index on have the profiles that those of a plan for the robot have.
-bool have_profiles(const Actions& actions, std::size_t first, const core::Robot& robot) {
+bool have_profiles(const ActionSequence& actions, std::size_t first, const Robot& robot) {
   const auto has_its_own = [&](const Action& action) {
     return action.profile || !robot.limits_changes_of_speed(action.type);
   };
@@ -282,40 +281,40 @@ bool have_profiles(const Actions& actions, std::size_t first, const core::Robot&
 
 /// Whether POST /v1/plan accepts previous actions of this robot, as far as their times, profiles and loads
 /// go. Only committed motion may be measured.
-bool is_accepted(const Actions& previous, const core::Robot& robot) {
+bool is_accepted(const ActionSequence& previous, const Robot& robot) {
   const double end = previous.empty() ? 0.0 : previous.back().t_end;
   return end <= kLongestTime && have_profiles(previous, robot.committed.size(), robot) &&
-         core::count_of_executable(robot, previous) == previous.size();
+         count_of_executable(robot, previous) == previous.size();
 }
 
 /// Ends a commitment where the robot takes a load with which it cannot go on like that: one that is held, or
 /// gets other goals, may serve a goal where its plan did not.
-void end_before_unfit_load(core::Robot& robot) {
-  const std::size_t count = core::count_of_executable(robot, robot.committed);
+void end_before_unfit_load(Robot& robot) {
+  const std::size_t count = count_of_executable(robot, robot.committed);
   if (count > 0 || robot.committed_speed() == 0.0) robot.committed.resize(count);
 }
 
 /// What it cannot leave out of this remainder.
-Actions braking_in(const Remainder& rest, const core::Robot& robot, const Execution& execution,
-                   const Located& located) {
+ActionSequence braking_in(const Remainder& rest, const Robot& robot, const Execution& execution,
+                          const Located& located) {
   if (located.is_elsewhere || rest.actions.empty()) return {};
   // With a profile, the robot brakes by itself.
   if (rest.actions.front().profile) return braked(rest.actions, 0.0);
   const bool brakes = execution.stop_distance > 0.0 && drives(robot, execution, located.progress);
-  return brakes ? driven_until(rest.actions, execution.stop_distance) : Actions();
+  return brakes ? driven_until(rest.actions, execution.stop_distance) : ActionSequence();
 }
 
 /// When it can stand at the earliest, seconds.
-double standing_from(const Remainder& rest, const core::Robot& robot, const Execution& execution,
+double standing_from(const Remainder& rest, const Robot& robot, const Execution& execution,
                      const Located& located) {
-  const Actions braking = braking_in(rest, robot, execution, located);
+  const ActionSequence braking = braking_in(rest, robot, execution, located);
   return braking.empty() ? 0.0 : braking.back().t_end;
 }
 
 bool is_released(const Execution& execution) { return execution.reported && execution.reported->released; }
 
 /// What it may do already, after it has been held.
-ReleasedRest held_rest(const core::Robot& robot, const Execution& execution, const Located& located,
+ReleasedRest held_rest(const Robot& robot, const Execution& execution, const Located& located,
                        const Moment& moment) {
   ReleasedRest released = released_rest(robot, execution, moment);
   const double stands_from = standing_from(released.rest, robot, execution, located);
@@ -329,14 +328,14 @@ struct Course {
   double committed_until = 0.0;
 };
 
-Course usual_course(const core::Robot& robot, const Execution& execution, const Located& located,
+Course usual_course(const Robot& robot, const Execution& execution, const Located& located,
                     const Moment& moment) {
   Course course{remainder_of(robot, execution, located, moment)};
   const double stands_from = standing_from(course.rest, robot, execution, located);
   // It begins to brake at the horizon of commitment.
   double until = horizon(course.rest.actions, moment);
   if (needs_time_to_stop(robot)) {
-    const Actions to_rest = braked(course.rest.actions, until);
+    const ActionSequence to_rest = braked(course.rest.actions, until);
     if (!to_rest.empty()) until = std::max(until, to_rest.back().t_end);
   }
   if (execution.hold) {
@@ -349,7 +348,7 @@ Course usual_course(const core::Robot& robot, const Execution& execution, const 
 
 /// Returns the course of a robot in a fleet in which some are released to go on: it does what is released,
 /// and then stands.
-Course standing_course(const core::Robot& robot, const Execution& execution, const Located& located,
+Course standing_course(const Robot& robot, const Execution& execution, const Located& located,
                        const Moment& moment) {
   if (!is_released(execution) || located.is_elsewhere) {
     Course course{remainder_of(robot, execution, located, moment)};
@@ -360,11 +359,11 @@ Course standing_course(const core::Robot& robot, const Execution& execution, con
   }
   ReleasedRest released = held_rest(robot, execution, located, moment);
   Course course{std::move(released.rest)};
-  Actions& actions = course.rest.actions;
+  ActionSequence& actions = course.rest.actions;
   const double end = actions.empty() ? 0.0 : actions.back().t_end;
   course.committed_until = std::max(end, *moment.stand_until);
-  if (course.committed_until - end >= core::kLeastAction) {
-    const core::Pose pose = actions.empty() ? course.rest.start : actions.back().to;
+  if (course.committed_until - end >= kLeastAction) {
+    const Pose pose = actions.empty() ? course.rest.start : actions.back().to;
     actions.push_back({Action::Type::wait, end, course.committed_until, pose, pose});
   }
   append(actions, released.after);
@@ -372,7 +371,7 @@ Course standing_course(const core::Robot& robot, const Execution& execution, con
 }
 
 /// What this robot cannot leave out.
-Actions braking_of(const core::Robot& robot, const Execution& execution, const Moment& moment) {
+ActionSequence braking_of(const Robot& robot, const Execution& execution, const Moment& moment) {
   if (execution.stop_distance <= 0.0 && !needs_time_to_stop(robot)) return {};
   const Located located = locate(robot, execution, moment);
   const Remainder rest = is_released(execution) && !located.is_elsewhere
@@ -387,20 +386,20 @@ namespace {
 
 /// A robot at the moment, and all that it does if it goes on as planned.
 struct Advanced {
-  core::Robot robot;
-  Actions course;
+  Robot robot;
+  ActionSequence course;
 };
 
-Advanced advanced_with_course(const core::Robot& robot, const Execution& execution, const Moment& moment) {
+Advanced advanced_with_course(const Robot& robot, const Execution& execution, const Moment& moment) {
   const Located located = locate(robot, execution, moment);
   Course course = moment.stand_until ? standing_course(robot, execution, located, moment)
                                      : usual_course(robot, execution, located, moment);
   Remainder& rest = course.rest;
   GoalsLeft left = goals_left(robot, execution, located, moment);
 
-  core::Robot next = robot;
+  Robot next = robot;
   next.start = rest.start;
-  core::set_load(next, left.load);
+  set_load(next, left.load);
   renumber(rest.actions, left.visited);
   course.committed_until = std::min(course.committed_until, kLongestTime);
   next.committed = stopped_by(rest.actions, course.committed_until);
@@ -412,7 +411,7 @@ Advanced advanced_with_course(const core::Robot& robot, const Execution& executi
   }
   end_before_unfit_load(next);
   const bool counts_age = moment.has_horizon && next.goal && !execution.goals;
-  next.goal_age = counts_age && !core::has_arrived(next) ? left.age : 0.0;
+  next.goal_age = counts_age && !has_arrived(next) ? left.age : 0.0;
   next.previous.reset();
   const bool goes_on = execution.planned && !located.is_elsewhere && !execution.goals;
   if (goes_on) {
@@ -424,22 +423,22 @@ Advanced advanced_with_course(const core::Robot& robot, const Execution& executi
 
 }  // namespace
 
-core::Robot advanced(const core::Robot& robot, const Execution& execution, const Moment& moment) {
+Robot advanced(const Robot& robot, const Execution& execution, const Moment& moment) {
   return advanced_with_course(robot, execution, moment).robot;
 }
 
-PassedGoals passed_goals(const core::Robot& robot, const Execution& execution, const Moment& moment,
-                         const core::Robot& next) {
+PassedGoals passed_goals(const Robot& robot, const Execution& execution, const Moment& moment,
+                         const Robot& next) {
   if (!execution.goals) return {};
   const GoalsLeft left = goals_left(robot, execution, locate(robot, execution, moment), moment);
   return {left.visited, count_of_passed(next, left.goals)};
 }
 
-void leave_out_unfit(std::vector<core::Robot>& next, const std::vector<core::Robot>& robots,
-                     const std::vector<Execution>& executions, const Moment& moment, core::Work& work) {
+void leave_out_unfit(std::vector<Robot>& next, const std::vector<Robot>& robots,
+                     const std::vector<Execution>& executions, const Moment& moment, Work& work) {
   for (std::size_t k = 0; k < next.size(); ++k) {
     if (work.met_after(1 + executions[k].actions.size())) return;
-    core::Robot& robot = next[k];
+    Robot& robot = next[k];
     if (robot.previous && !is_accepted(*robot.previous, robot)) robot.previous.reset();
     if (!executions[k].goals) continue;
     if (work.met_after(kWorkOfAnAction * (1 + executions[k].actions.size()))) return;
@@ -448,19 +447,19 @@ void leave_out_unfit(std::vector<core::Robot>& next, const std::vector<core::Rob
   }
 }
 
-void mark_services(std::vector<core::Robot>& next, core::Work& work) {
-  for (core::Robot& robot : next) {
+void mark_services(std::vector<Robot>& next, Work& work) {
+  for (Robot& robot : next) {
     const std::size_t previous = robot.previous ? robot.previous->size() : 0;
     if (work.met_after(kWorkOfAnAction * (1 + robot.committed.size() + previous))) return;
-    core::mark_services(robot, robot.committed, 0);
-    if (robot.previous) core::mark_services(robot, *robot.previous, 0);
+    mark_services(robot, robot.committed, 0);
+    if (robot.previous) mark_services(robot, *robot.previous, 0);
   }
 }
 
-std::vector<Actions> braking_of(const std::vector<core::Robot>& robots,
-                                const std::vector<Execution>& executions, const Moment& moment,
-                                core::Work& work) {
-  std::vector<Actions> braking(robots.size());
+std::vector<ActionSequence> braking_of(const std::vector<Robot>& robots,
+                                       const std::vector<Execution>& executions, const Moment& moment,
+                                       Work& work) {
+  std::vector<ActionSequence> braking(robots.size());
   for (std::size_t k = 0; k < robots.size(); ++k) {
     if (work.met_after(kWorkOfAnAction * (1 + executions[k].actions.size()))) break;
     braking[k] = braking_of(robots[k], executions[k], moment);
@@ -468,9 +467,9 @@ std::vector<Actions> braking_of(const std::vector<core::Robot>& robots,
   return braking;
 }
 
-std::optional<double> standing_time(const std::vector<core::Robot>& robots,
+std::optional<double> standing_time(const std::vector<Robot>& robots,
                                     const std::vector<Execution>& executions, const Moment& moment,
-                                    core::Work& work) {
+                                    Work& work) {
   std::optional<double> until;
   for (std::size_t k = 0; k < robots.size(); ++k) {
     const Execution& execution = executions[k];
@@ -486,37 +485,20 @@ std::optional<double> standing_time(const std::vector<core::Robot>& robots,
   return until;
 }
 
-ActionPlace place_of(const core::Robot& robot, const Execution& execution, const Moment& moment) {
+ActionPlace place_of(const Robot& robot, const Execution& execution, const Moment& moment) {
   if (execution.reported) return execution.reported->place;
-  const Actions& actions = execution.actions;
+  const ActionSequence& actions = execution.actions;
   const TimedProgress progress = locate(robot, execution, moment).progress;
   if (progress.action == actions.size())
     return actions.empty() ? ActionPlace{} : ActionPlace{actions.size() - 1, 1.0};
   const Action& action = actions[progress.action];
   const bool takes_time = action.t_end > action.t_start;
-  return {progress.action, takes_time ? core::share_at(action, progress.t) : 0.0};
+  return {progress.action, takes_time ? share_at(action, progress.t) : 0.0};
 }
 
-std::vector<double> margins_of(const std::vector<core::Robot>& robots,
-                               const std::vector<Execution>& executions, const Moment& moment,
-                               const std::vector<core::Robot>& next, core::Work& work) {
-  // Robots that are released to places where they touch may go there. Two of them stay within the tolerance.
-  constexpr double kReleased = -0.4 * core::kContactTolerance;
-  std::vector<double> margins(robots.size(), moment.stand_until ? kReleased : 0.0);
-  if (moment.stand_until) return margins;
-  for (std::size_t k = 0; k < next.size(); ++k) {
-    if (work.met_after(1 + executions[k].actions.size())) break;
-    const core::Pose planned = planned_pose(robots[k], executions[k].actions, moment.at);
-    const double off = (next[k].start.position - planned.position).norm();
-    margins[k] = robots[k].vicinity + moment.inflation - std::min(off, 0.5 * moment.inflation);
-  }
-  return margins;
-}
-
-std::vector<core::Robot> advanced(const std::vector<core::Robot>& robots,
-                                  const std::vector<Execution>& executions, const Moment& moment,
-                                  Motions& motions, core::Work& work) {
-  std::vector<core::Robot> next;
+std::vector<Robot> advanced(const std::vector<Robot>& robots, const std::vector<Execution>& executions,
+                            const Moment& moment, Motions& motions, Work& work) {
+  std::vector<Robot> next;
   next.reserve(robots.size());
   motions.courses.resize(robots.size());
   for (std::size_t k = 0; k < robots.size(); ++k) {
@@ -530,8 +512,8 @@ std::vector<core::Robot> advanced(const std::vector<core::Robot>& robots,
   return next;
 }
 
-std::optional<core::MovingObstacle> advanced(const core::MovingObstacle& obstacle, double at) {
-  core::MovingObstacle left = obstacle;
+std::optional<MovingObstacle> advanced(const MovingObstacle& obstacle, double at) {
+  MovingObstacle left = obstacle;
   left.motion.clear();
   for (const auto& entry : obstacle.motion) {
     if (entry.t >= at) left.motion.push_back({entry.t - at, entry.position});
@@ -540,7 +522,7 @@ std::optional<core::MovingObstacle> advanced(const core::MovingObstacle& obstacl
   if (passed == 0) return left;
   const auto& before = obstacle.motion[passed - 1];
   if (left.motion.empty()) {
-    if (obstacle.after == core::MovingObstacle::After::leaves) return std::nullopt;
+    if (obstacle.after == MovingObstacle::After::leaves) return std::nullopt;
     left.motion.push_back({0.0, before.position});
   } else if (left.motion.front().t > 0.0) {
     const auto& after = obstacle.motion[passed];
@@ -551,4 +533,20 @@ std::optional<core::MovingObstacle> advanced(const core::MovingObstacle& obstacl
   return left;
 }
 
-}  // namespace fleetplan::api
+AdvancedFleet advance(FleetInMotion& fleet, const Judgement& judgement, Work& work) {
+  Moment& moment = fleet.moment;
+  moment.stand_until = standing_time(fleet.robots, fleet.executions, moment, work);
+  Motions motions{braking_of(fleet.robots, fleet.executions, moment, work)};
+  for (const MovingObstacle& obstacle : fleet.obstacles) {
+    if (moment.stand_until) break;  // what is released cannot be shortened for them
+    if (auto left = advanced(obstacle, moment.at)) motions.obstacles.push_back(std::move(*left));
+  }
+  AdvancedFleet next{advanced(fleet.robots, fleet.executions, moment, motions, work), {}};
+  if (work.met()) return next;
+  next.circumstances = make_acceptable(fleet, judgement, next.robots, motions, work);
+  leave_out_unfit(next.robots, fleet.robots, fleet.executions, moment, work);
+  mark_services(next.robots, work);
+  return next;
+}
+
+}  // namespace fleetplan::core

@@ -1,4 +1,4 @@
-#include "api/advance/advance.h"
+#include "core/advance/advance.h"
 
 #include <gtest/gtest.h>
 
@@ -7,24 +7,22 @@
 #include <utility>
 #include <vector>
 
-#include "tests/api/advance/driving_fleet.h"
+#include "core/advance/timeline.h"
+#include "tests/core/advance/driving_fleet.h"
 #include "tests/support/unbounded_work.h"
 
-namespace fleetplan::api {
+namespace fleetplan::core {
 namespace TEST_FILE {
 
-using core::Action;
-using core::Pose;
-using core::Position;
-using Type = core::Action::Type;
+using Type = Action::Type;
 
-core::Goal goal(double x, double service = 0.0, double not_before = 0.0) {
+Goal goal(double x, double service = 0.0, double not_before = 0.0) {
   return {{x, 1.0}, std::nullopt, service, not_before};
 }
 
 /// Serves at x = 3 from 2 s to 7 s, waits for others until 8 s, and is at x = 6 from 11 s on.
-core::Robot robot() {
-  core::Robot robot = robot_at(at_x(1.0), 0.0);
+Robot robot() {
+  Robot robot = robot_at(at_x(1.0), 0.0);
   robot.via = {goal(3.0, 5.0)};
   robot.goal = goal(6.0, 1.0);
   return robot;
@@ -40,7 +38,7 @@ Execution plan() {
 }
 
 TEST(Advance, ByDefaultTheActionUnderWayIsCommitted) {
-  const core::Robot next = advanced(robot(), plan(), moment(0.5));
+  const Robot next = advanced(robot(), plan(), moment(0.5));
   EXPECT_EQ(next.start.position.x(), 1.5);
   ASSERT_EQ(next.committed.size(), 1U);
   EXPECT_EQ(next.committed[0].t_end, 1.5);
@@ -50,18 +48,18 @@ TEST(Advance, ByDefaultTheActionUnderWayIsCommitted) {
 }
 
 TEST(Advance, CountsDueFromTheMoment) {
-  core::Robot due = robot();
+  Robot due = robot();
   due.weight = 5.0;
   due.via[0].due = 1.0;
   due.goal->due = 20.0;
-  const core::Robot next = advanced(due, plan(), moment(4.0));
+  const Robot next = advanced(due, plan(), moment(4.0));
   EXPECT_EQ(next.goal_at(0).due, -3.0) << "it is late already";
   EXPECT_EQ(next.goal_at(1).due, 16.0);
   EXPECT_EQ(next.weight, 5.0);
 }
 
 TEST(Advance, AHorizonCutsTheActionUnderWay) {
-  const core::Robot next = advanced(robot(), plan(), moment(0.5, 1.0));
+  const Robot next = advanced(robot(), plan(), moment(0.5, 1.0));
   ASSERT_EQ(next.committed.size(), 1U);
   EXPECT_EQ(next.committed[0].t_end, 1.0);
   EXPECT_EQ(next.committed[0].to.position.x(), 2.5);
@@ -69,7 +67,7 @@ TEST(Advance, AHorizonCutsTheActionUnderWay) {
 }
 
 TEST(Advance, ThePreviousActionsBeginWithTheCommittedOnes) {
-  const core::Robot next = advanced(robot(), plan(), moment(0.5, 1.0));
+  const Robot next = advanced(robot(), plan(), moment(0.5, 1.0));
   ASSERT_EQ(next.previous->size(), 6U);
   EXPECT_EQ(next.previous->at(0).to.position, next.committed[0].to.position);
   EXPECT_EQ(next.previous->at(0).t_end, 1.0);
@@ -79,7 +77,7 @@ TEST(Advance, ThePreviousActionsBeginWithTheCommittedOnes) {
 }
 
 TEST(Advance, AServiceUnderWayKeepsWhatIsLeftOfIt) {
-  const core::Robot next = advanced(robot(), plan(), moment(4.5));
+  const Robot next = advanced(robot(), plan(), moment(4.5));
   ASSERT_EQ(next.goal_count(), 2U);
   EXPECT_DOUBLE_EQ(next.via[0].service, 2.5);
   EXPECT_TRUE(next.committed.empty());
@@ -88,7 +86,7 @@ TEST(Advance, AServiceUnderWayKeepsWhatIsLeftOfIt) {
 }
 
 TEST(Advance, VisitedGoalsAreLeftOutAndTheWaitsAreNumberedAnew) {
-  const core::Robot next = advanced(robot(), plan(), moment(7.0));
+  const Robot next = advanced(robot(), plan(), moment(7.0));
   EXPECT_TRUE(next.via.empty());
   EXPECT_EQ(next.goal->service, 1.0);
   EXPECT_EQ(next.previous->front().goal, std::nullopt);
@@ -97,7 +95,7 @@ TEST(Advance, VisitedGoalsAreLeftOutAndTheWaitsAreNumberedAnew) {
 
 TEST(Advance, TheLastGoalStaysWithoutAServiceWhenItHasBeenServed) {
   for (const double at : {12.0, 40.0}) {
-    const core::Robot next = advanced(robot(), plan(), moment(at));
+    const Robot next = advanced(robot(), plan(), moment(at));
     ASSERT_EQ(next.goal_count(), 1U);
     EXPECT_EQ(next.goal->position.x(), 6.0);
     EXPECT_EQ(next.goal->service, 0.0);
@@ -106,7 +104,7 @@ TEST(Advance, TheLastGoalStaysWithoutAServiceWhenItHasBeenServed) {
 }
 
 TEST(Advance, TimesOfGoalsMove) {
-  core::Robot late = robot();
+  Robot late = robot();
   late.goal->not_before = 30.0;
   EXPECT_EQ(advanced(late, plan(), moment(10.0)).goal->not_before, 20.0);
   EXPECT_EQ(advanced(late, {{}, false}, moment(31.0)).goal->not_before, 0.0);
@@ -115,7 +113,7 @@ TEST(Advance, TimesOfGoalsMove) {
 TEST(Advance, NewGoalsReplaceTheOthersAndThePreviousPlan) {
   Execution execution = plan();
   execution.goals = {goal(2.0), goal(8.0, 3.0)};
-  const core::Robot next = advanced(robot(), execution, moment(1.0));
+  const Robot next = advanced(robot(), execution, moment(1.0));
   ASSERT_EQ(next.goal_count(), 2U);
   EXPECT_EQ(next.goal->service, 3.0);
   EXPECT_FALSE(next.previous);
@@ -125,7 +123,7 @@ TEST(Advance, NewGoalsReplaceTheOthersAndThePreviousPlan) {
 TEST(Advance, AHoldIsCommittedAndBreaksTheActionOff) {
   Execution execution = plan();
   execution.hold = 30.0;
-  const core::Robot next = advanced(robot(), execution, moment(1.0, 1.0));
+  const Robot next = advanced(robot(), execution, moment(1.0, 1.0));
   ASSERT_EQ(next.committed.size(), 1U);
   EXPECT_EQ(next.committed[0].type, Type::wait);
   EXPECT_EQ(next.committed[0].t_end, 30.0);
@@ -136,7 +134,7 @@ TEST(Advance, AHoldIsCommittedAndBreaksTheActionOff) {
 TEST(Advance, ARobotThatIsElsewhereHasNoCommitmentAndNoPreviousPlan) {
   Execution execution = plan();
   execution.measured = Pose{{2.0, 1.5}, 0.0};
-  const core::Robot next = advanced(robot(), execution, moment(1.0));
+  const Robot next = advanced(robot(), execution, moment(1.0));
   EXPECT_EQ(next.start.position.y(), 1.5);
   EXPECT_TRUE(next.committed.empty());
   EXPECT_FALSE(next.previous);
@@ -146,7 +144,7 @@ TEST(Advance, ARobotThatIsElsewhereHasNoCommitmentAndNoPreviousPlan) {
 TEST(Advance, ALateRobotHasNotVisitedWhatItsPlanHasVisited) {
   Execution execution = plan();
   execution.measured = Pose{{2.0, 1.0}, 0.0};
-  const core::Robot next = advanced(robot(), execution, moment(9.0));
+  const Robot next = advanced(robot(), execution, moment(9.0));
   ASSERT_EQ(next.goal_count(), 2U);
   EXPECT_EQ(next.via[0].service, 5.0);
   EXPECT_EQ(next.previous->back().t_end, 11.0);
@@ -154,17 +152,17 @@ TEST(Advance, ALateRobotHasNotVisitedWhatItsPlanHasVisited) {
 
 TEST(Advance, ARobotWithoutAPlanFollowsItsCommitmentAndStays) {
   const Execution execution{{{Type::translate, 0.0, 2.0, at_x(1.0), at_x(3.0)}}, false};
-  const core::Robot moving = advanced(robot(), execution, moment(1.0));
+  const Robot moving = advanced(robot(), execution, moment(1.0));
   EXPECT_EQ(moving.committed.size(), 1U);
   EXPECT_FALSE(moving.previous);
   // It is served where it stands.
-  const core::Robot standing = advanced(robot(), execution, moment(4.0));
+  const Robot standing = advanced(robot(), execution, moment(4.0));
   EXPECT_EQ(standing.start.position.x(), 3.0);
   EXPECT_DOUBLE_EQ(standing.via[0].service, 3.0);
 }
 
 TEST(Advance, WhatIsLeftOfAWaitBeforeAMoveIsCommitted) {
-  const core::Robot next = advanced(robot(), plan(), moment(7.5, 0.1, 2.0));
+  const Robot next = advanced(robot(), plan(), moment(7.5, 0.1, 2.0));
   ASSERT_EQ(next.committed.size(), 1U);
   EXPECT_EQ(next.committed[0].t_end, 0.5);
   EXPECT_TRUE(advanced(robot(), plan(), moment(7.5, {}, 0.1)).committed.empty());
@@ -173,9 +171,9 @@ TEST(Advance, WhatIsLeftOfAWaitBeforeAMoveIsCommitted) {
 TEST(Advance, ItsResultCanBeAdvancedAgain) {
   for (int step = 0; step < 36; ++step) {
     const double first = 0.37 * step;
-    const core::Robot once = advanced(robot(), plan(), moment(first));
-    const core::Robot twice = advanced(once, {*once.previous, true}, moment(0.7));
-    const core::Robot direct = advanced(robot(), plan(), moment(first + 0.7));
+    const Robot once = advanced(robot(), plan(), moment(first));
+    const Robot twice = advanced(once, {*once.previous, true}, moment(0.7));
+    const Robot direct = advanced(robot(), plan(), moment(first + 0.7));
     EXPECT_NEAR(twice.start.position.x(), direct.start.position.x(), 1e-9) << first;
     ASSERT_EQ(twice.goal_count(), direct.goal_count()) << first;
     EXPECT_NEAR(twice.goal_at(0).service, direct.goal_at(0).service, 1e-9) << first;
@@ -191,8 +189,7 @@ Execution reported(std::size_t action, double fraction, std::optional<double> se
 }
 
 TEST(AdvanceByState, ALateServiceKeepsWhatIsLeftOfIt) {
-  const core::Robot next =
-      advanced(robot(), reported(1, 0.2), moment(9.0, 2.0));  // planned: on its way to x = 6
+  const Robot next = advanced(robot(), reported(1, 0.2), moment(9.0, 2.0));  // planned: on its way to x = 6
   ASSERT_EQ(next.goal_count(), 2U);
   EXPECT_DOUBLE_EQ(next.via[0].service, 4.0);
   EXPECT_EQ(next.start.position.x(), 3.0);
@@ -204,13 +201,13 @@ TEST(AdvanceByState, ALateServiceKeepsWhatIsLeftOfIt) {
 
 TEST(AdvanceByState, TheServiceThatIsLeftIsAsReported) {
   for (const double left : {0.5, 12.0}) {  // the planned one takes 5 s
-    const core::Robot next = advanced(robot(), reported(1, 1.0, left), moment(9.0));
+    const Robot next = advanced(robot(), reported(1, 1.0, left), moment(9.0));
     ASSERT_EQ(next.goal_count(), 2U);
     EXPECT_EQ(next.via[0].service, left);
     EXPECT_EQ(next.previous->front().t_end, left);
     EXPECT_EQ(next.previous->at(1).goal, std::nullopt);
   }
-  const core::Robot served = advanced(robot(), reported(1, 0.1, 0.0), moment(9.0));
+  const Robot served = advanced(robot(), reported(1, 0.1, 0.0), moment(9.0));
   EXPECT_EQ(served.goal_count(), 1U);
   EXPECT_EQ(served.goal->service, 1.0);
   EXPECT_EQ(served.previous->front().t_end, 1.0) << "the wait for others";
@@ -222,12 +219,12 @@ TEST(AdvanceByState, AServiceInTwoPartsIsOne) {
   execution.actions[2].t_start = 4.0;
   execution.actions[2].t_end = 7.0;
   execution.actions[2].goal = 0;
-  const core::Robot next = advanced(robot(), execution, moment(3.5));
+  const Robot next = advanced(robot(), execution, moment(3.5));
   EXPECT_EQ(next.via[0].service, 4.0);
   EXPECT_EQ(next.previous->at(0).t_end, 4.0);
   EXPECT_NE(next.previous->at(1).goal, 0U);
   execution.reported->service_left.reset();
-  const core::Robot as_planned = advanced(robot(), execution, moment(3.5));
+  const Robot as_planned = advanced(robot(), execution, moment(3.5));
   EXPECT_DOUBLE_EQ(as_planned.via[0].service, 4.0);
   EXPECT_DOUBLE_EQ(as_planned.previous->at(0).t_end, 1.0);
   EXPECT_DOUBLE_EQ(as_planned.previous->at(1).t_end, 4.0);
@@ -236,22 +233,22 @@ TEST(AdvanceByState, AServiceInTwoPartsIsOne) {
 }
 
 TEST(AdvanceByState, AWaitForAGoalGoesOnUntilItMayBegin) {
-  core::Robot early = robot();
+  Robot early = robot();
   early.via[0].not_before = 4.0;  // the wait is from 2 s to 9 s, of which the last five are the service
   Execution execution = reported(1, 0.0);
   execution.actions[1].t_end = 9.0;
-  const core::Robot late = advanced(early, execution, moment(3.0));
+  const Robot late = advanced(early, execution, moment(3.0));
   EXPECT_EQ(late.via[0].not_before, 1.0);
   EXPECT_EQ(late.via[0].service, 5.0);
   EXPECT_DOUBLE_EQ(late.previous->front().t_end, 6.0);
-  const core::Robot later = advanced(early, execution, moment(20.0));
+  const Robot later = advanced(early, execution, moment(20.0));
   EXPECT_EQ(later.via[0].not_before, 0.0);
   EXPECT_EQ(later.via[0].service, 5.0);
   EXPECT_DOUBLE_EQ(later.previous->front().t_end, 5.0);
 }
 
 TEST(AdvanceByState, AServiceNeverHappensBecauseTimeHasPassed) {
-  const core::Robot next = advanced(robot(), reported(0, 1.0), moment(40.0));
+  const Robot next = advanced(robot(), reported(0, 1.0), moment(40.0));
   ASSERT_EQ(next.goal_count(), 2U);
   EXPECT_EQ(next.via[0].service, 5.0);
   EXPECT_EQ(next.start.position.x(), 3.0);
@@ -263,7 +260,7 @@ TEST(AdvanceByState, AServiceNeverHappensBecauseTimeHasPassed) {
 }
 
 TEST(AdvanceByState, ARobotGoesOnFromItsProgress) {
-  const core::Robot next = advanced(robot(), reported(3, 0.5), moment(8.5));  // planned: x = 3.5
+  const Robot next = advanced(robot(), reported(3, 0.5), moment(8.5));  // planned: x = 3.5
   EXPECT_DOUBLE_EQ(next.start.position.x(), 4.5);
   EXPECT_DOUBLE_EQ(next.committed.back().t_end, 1.5);
   EXPECT_EQ(next.goal_count(), 1U);
@@ -271,7 +268,7 @@ TEST(AdvanceByState, ARobotGoesOnFromItsProgress) {
 }
 
 TEST(AdvanceByState, AllDoneIsTheEndOfTheLastAction) {
-  const core::Robot next = advanced(robot(), reported(4, 1.0), moment(5.0));
+  const Robot next = advanced(robot(), reported(4, 1.0), moment(5.0));
   EXPECT_EQ(next.start.position.x(), 6.0);
   EXPECT_EQ(next.goal->service, 0.0);
   EXPECT_TRUE(next.previous->empty());
@@ -280,12 +277,12 @@ TEST(AdvanceByState, AllDoneIsTheEndOfTheLastAction) {
 TEST(AdvanceByState, AMeasuredPoseIsTheStart) {
   Execution execution = reported(3, 0.5);
   execution.measured = Pose{{4.5, 1.05}, 0.05};
-  const core::Robot near = advanced(robot(), execution, moment(9.5));
+  const Robot near = advanced(robot(), execution, moment(9.5));
   EXPECT_EQ(near.start.position, Position(4.5, 1.05));
   EXPECT_EQ(near.committed.front().to.position, Position(6.0, 1.0));
   for (const Pose& far : {Pose{{4.5, 1.2}, 0.0}, Pose{{4.3, 1.0}, 0.0}, Pose{{4.5, 1.0}, 0.3}}) {
     execution.measured = far;
-    const core::Robot elsewhere = advanced(robot(), execution, moment(9.5));
+    const Robot elsewhere = advanced(robot(), execution, moment(9.5));
     EXPECT_EQ(elsewhere.start.position, far.position);
     EXPECT_TRUE(elsewhere.committed.empty());
     EXPECT_FALSE(elsewhere.previous);
@@ -296,14 +293,14 @@ TEST(AdvanceByState, AMeasuredPoseIsTheStart) {
 TEST(AdvanceByState, AHeldRobotGoesOnLater) {
   Execution execution = reported(1, 0.4);
   execution.hold = 10.0;
-  const core::Robot next = advanced(robot(), execution, moment(9.0));
+  const Robot next = advanced(robot(), execution, moment(9.0));
   EXPECT_EQ(next.committed_until(), 10.0);
   EXPECT_DOUBLE_EQ(next.via[0].service, 3.0);
 }
 
 TEST(AdvanceByState, ThePlaceIsThatOfTheStateOrOfThePlan) {
   const auto expect_place = [](const Execution& execution, double at, std::size_t action, double fraction) {
-    const core::ActionPlace place = place_of(robot(), execution, moment(at));
+    const ActionPlace place = place_of(robot(), execution, moment(at));
     EXPECT_EQ(place.action, action) << at;
     EXPECT_DOUBLE_EQ(place.fraction, fraction) << at;
   };
@@ -320,7 +317,7 @@ TEST(AdvanceByState, ThePlaceIsThatOfTheStateOrOfThePlan) {
 }
 
 /// The plan of a robot that may drive to a place already.
-Execution released(core::ActionPlace at, core::ActionPlace until) {
+Execution released(ActionPlace at, ActionPlace until) {
   Execution execution = reported(at.action, at.fraction);
   execution.reported->released = until;
   return execution;
@@ -333,7 +330,7 @@ Moment standing(double at, double until) {
 }
 
 TEST(AdvanceByRelease, ARobotIsCommittedToWhatIsReleasedAndThenStands) {
-  const core::Robot next = advanced(robot(), released({0, 0.5}, {0, 0.75}), standing(5.0, 2.0));
+  const Robot next = advanced(robot(), released({0, 0.5}, {0, 0.75}), standing(5.0, 2.0));
   EXPECT_EQ(next.start.position.x(), 2.0);
   ASSERT_EQ(next.committed.size(), 2U);
   EXPECT_DOUBLE_EQ(next.committed[0].to.position.x(), 2.5);
@@ -345,37 +342,37 @@ TEST(AdvanceByRelease, ARobotIsCommittedToWhatIsReleasedAndThenStands) {
   EXPECT_DOUBLE_EQ(next.previous->at(2).t_end, 2.5);
   EXPECT_EQ(next.goal_count(), 2U);
   // It stands where it may stand.
-  const core::Robot stands = advanced(robot(), released({0, 0.75}, {0, 0.75}), standing(5.0, 2.0));
+  const Robot stands = advanced(robot(), released({0, 0.75}, {0, 0.75}), standing(5.0, 2.0));
   EXPECT_DOUBLE_EQ(stands.start.position.x(), 2.5);
   ASSERT_EQ(stands.committed.size(), 1U);
   EXPECT_EQ(stands.committed[0].type, Type::wait);
-  const core::Robot at_start = advanced(robot(), released({0, 0.0}, {0, 0.0}), standing(5.0, 0.0));
+  const Robot at_start = advanced(robot(), released({0, 0.0}, {0, 0.0}), standing(5.0, 0.0));
   EXPECT_EQ(at_start.start.position.x(), 1.0);
   EXPECT_TRUE(at_start.committed.empty());
 }
 
 TEST(AdvanceByRelease, ServicesAreDoneButWaitsThatGiveWayAreLeftOut) {
-  const core::Robot next = advanced(robot(), released({0, 0.5}, {3, 0.5}), standing(1.0, 0.0));
+  const Robot next = advanced(robot(), released({0, 0.5}, {3, 0.5}), standing(1.0, 0.0));
   ASSERT_EQ(next.committed.size(), 3U);
   EXPECT_EQ(next.committed[1].goal, 0U);
   EXPECT_DOUBLE_EQ(next.committed[1].t_end, 6.0);
   EXPECT_DOUBLE_EQ(next.committed[2].to.position.x(), 4.5);
   EXPECT_DOUBLE_EQ(next.committed_until(), 7.5);
   // It does not wait for others where it may go on.
-  const core::Robot waiting = advanced(robot(), released({2, 0.25}, {3, 0.5}), standing(7.25, 0.0));
+  const Robot waiting = advanced(robot(), released({2, 0.25}, {3, 0.5}), standing(7.25, 0.0));
   ASSERT_EQ(waiting.committed.size(), 1U);
   EXPECT_DOUBLE_EQ(waiting.committed_until(), 1.5);
 }
 
 TEST(AdvanceByRelease, AllStandUntilTheLastHasComeToWhereItMayGo) {
-  const std::vector<core::Robot> robots(3, robot());
+  const std::vector<Robot> robots(3, robot());
   std::vector<Execution> executions{released({0, 0.5}, {0, 0.75}), released({3, 0.0}, {4, 1.0}), plan()};
   Moment then = moment(8.0);
   then.stand_until = standing_time(robots, executions, then, unbounded_work());
   EXPECT_EQ(then.stand_until, 3.0);  // the service at x = 6 does not count
   EXPECT_EQ(advanced(robots[0], executions[0], then).committed_until(), 3.0);
   EXPECT_EQ(advanced(robots[1], executions[1], then).committed_until(), 4.0);
-  const core::Robot other = advanced(robots[2], executions[2], then);
+  const Robot other = advanced(robots[2], executions[2], then);
   EXPECT_EQ(other.committed_until(), 3.0);
   EXPECT_EQ(other.committed.front().type, Type::wait);
   executions[0].hold = 5.0;
@@ -389,7 +386,7 @@ TEST(AdvanceByRelease, AllStandUntilTheLastHasComeToWhereItMayGo) {
 TEST(AdvanceByRelease, ARobotThatIsElsewhereStandsWhereItIs) {
   Execution execution = released({0, 0.5}, {0, 0.75});
   execution.measured = Pose{{2.0, 2.0}, 0.0};
-  const core::Robot next = advanced(robot(), execution, standing(5.0, 2.0));
+  const Robot next = advanced(robot(), execution, standing(5.0, 2.0));
   EXPECT_EQ(next.start.position, Position(2.0, 2.0));
   EXPECT_EQ(next.committed_until(), 2.0);
   EXPECT_EQ(next.committed.front().type, Type::wait);
@@ -398,8 +395,8 @@ TEST(AdvanceByRelease, ARobotThatIsElsewhereStandsWhereItIs) {
 }
 
 /// The same robot picks a load up at x = 3, and puts it down at x = 6.
-core::Robot carrier() {
-  core::Robot carrier = robot();
+Robot carrier() {
+  Robot carrier = robot();
   carrier.radius = 0.3;
   carrier.via[0].radius_after = 0.5;
   carrier.goal->radius_after = 0.4;
@@ -407,17 +404,17 @@ core::Robot carrier() {
 }
 
 TEST(Advance, ARobotHasTheRadiusOfItsLoad) {
-  const core::Robot driving = advanced(carrier(), plan(), moment(6.9));
+  const Robot driving = advanced(carrier(), plan(), moment(6.9));
   EXPECT_EQ(driving.radius, 0.3);
   EXPECT_EQ(driving.via[0].radius_after, 0.5);
-  const core::Robot loaded = advanced(carrier(), plan(), moment(7.1));
+  const Robot loaded = advanced(carrier(), plan(), moment(7.1));
   EXPECT_EQ(loaded.radius, 0.5);
   EXPECT_EQ(loaded.goal->radius_after, 0.4);
 }
 
 TEST(Advance, ARobotThatHasServedItsLastGoalKeepsItsLastRadius) {
   EXPECT_EQ(advanced(carrier(), plan(), moment(11.5)).radius, 0.5);
-  const core::Robot served = advanced(carrier(), plan(), moment(12.5));
+  const Robot served = advanced(carrier(), plan(), moment(12.5));
   EXPECT_EQ(served.radius, 0.4);
   EXPECT_EQ(served.goal->radius_after, std::nullopt);
 }
@@ -480,8 +477,8 @@ TEST(AdvancedFleet, ALateRobotStopsThoseThatWouldDriveIntoIt) {
 
 /// One drives to x = 3 and then aside to y = 3; the other one passes there later, in one long move.
 DrivingFleet crossing(double inflation = 0.0) {
-  const core::Robot first = robot_at(at_x(1.0));
-  const core::Robot second = robot_at({{3.0, -5.0}, 1.5});
+  const Robot first = robot_at(at_x(1.0));
+  const Robot second = robot_at({{3.0, -5.0}, 1.5});
   DrivingFleet fleet;
   fleet.inflation = inflation;
   fleet.add(first, {{Type::translate, 0.0, 2.0, first.start, at_x(3.0)},
@@ -508,10 +505,10 @@ TEST(AdvancedFleet, CommitmentsKeepTheDistanceOfThePlan) {
 
 /// One stops where it touches another one that waits, and then goes on past it.
 TEST(AdvancedFleet, NobodyGoesOnIntoOneThatHasStoppedBesideIt) {
-  const core::Robot waits = robot_at({{9.75, 9.75}, -3.0691895301690075}, 0.5);
+  const Robot waits = robot_at({{9.75, 9.75}, -3.0691895301690075}, 0.5);
   const Action wait{Type::wait, 0.0, 2.2, waits.start, waits.start};
   const Action past{Type::translate, 2.2, 7.4, waits.start, {{2.0, 9.187893222363368}, waits.start.theta}};
-  const core::Robot comes = robot_at({{8.2, 5.13}, 1.279898456223541});
+  const Robot comes = robot_at({{8.2, 5.13}, 1.279898456223541});
   const Action drive{
       Type::translate, 0.0, 4.63, comes.start, {{10.859688605502331, 14.0}, comes.start.theta}};
   DrivingFleet fleet;
@@ -533,7 +530,7 @@ TEST(AdvancedFleet, InflationIsUsedUpByRobotsThatAreNotWhereTheirPlansHaveThem) 
   DrivingFleet fleet;
   fleet.inflation = 0.1;
   fleet.add_on_line(1.0, 9.0);
-  const core::Robot down = robot_at({{9.0, 1.7}, std::numbers::pi});
+  const Robot down = robot_at({{9.0, 1.7}, std::numbers::pi});
   const Pose end_of_down{{1.0, 1.7}, std::numbers::pi};
   fleet.add(down, {{Type::translate, 0.0, 8.0, down.start, end_of_down}});
   const auto until = [&](double y) {
@@ -564,7 +561,7 @@ TEST(AdvancedFleet, RobotsThatAreTooNearStopHalfWayUnlessLittleIsLeft) {
 
 TEST(AdvancedFleet, CommitmentsToOneHorizonStayWhole) {
   const auto next = crossing().advance(1.0, 1.0);
-  for (const core::Robot& robot : next) EXPECT_EQ(robot.committed_until(), 1.0);
+  for (const Robot& robot : next) EXPECT_EQ(robot.committed_until(), 1.0);
 }
 
 TEST(AdvancedFleet, AWaitStaysCommittedWhereAnotherRobotTouches) {
@@ -575,31 +572,31 @@ TEST(AdvancedFleet, AWaitStaysCommittedWhereAnotherRobotTouches) {
   EXPECT_NEAR(next[1].committed_until(), 3.5, 1e-6);
 }
 
-core::MovingObstacle walker(core::MovingObstacle::After after) {
+MovingObstacle walker(MovingObstacle::After after) {
   return {"walker", 0.3, {{2.0, {1.0, 1.0}}, {4.0, {5.0, 1.0}}, {8.0, {5.0, 3.0}}}, after};
 }
 
 TEST(AdvancedObstacle, IsCutToWhatIsLeftOfIt) {
-  const auto left = advanced(walker(core::MovingObstacle::After::leaves), 3.0);
+  const auto left = advanced(walker(MovingObstacle::After::leaves), 3.0);
   ASSERT_TRUE(left);
   ASSERT_EQ(left->motion.size(), 3U);
   EXPECT_EQ(left->motion[0].t, 0.0);
   EXPECT_EQ(left->motion[0].position.x(), 3.0);
   EXPECT_EQ(left->motion[2].t, 5.0);
-  EXPECT_EQ(advanced(walker(core::MovingObstacle::After::leaves), 4.0)->motion.size(), 2U);
+  EXPECT_EQ(advanced(walker(MovingObstacle::After::leaves), 4.0)->motion.size(), 2U);
 }
 
 TEST(AdvancedObstacle, ThatIsNotThereYetComesLater) {
-  const auto left = advanced(walker(core::MovingObstacle::After::leaves), 1.0);
+  const auto left = advanced(walker(MovingObstacle::After::leaves), 1.0);
   ASSERT_TRUE(left);
   ASSERT_EQ(left->motion.size(), 3U);
   EXPECT_EQ(left->motion[0].t, 1.0);
 }
 
 TEST(AdvancedObstacle, VanishesOrStays) {
-  EXPECT_EQ(advanced(walker(core::MovingObstacle::After::leaves), 8.0)->motion.size(), 1U);
-  EXPECT_FALSE(advanced(walker(core::MovingObstacle::After::leaves), 8.1));
-  const auto stays = advanced(walker(core::MovingObstacle::After::stays), 9.0);
+  EXPECT_EQ(advanced(walker(MovingObstacle::After::leaves), 8.0)->motion.size(), 1U);
+  EXPECT_FALSE(advanced(walker(MovingObstacle::After::leaves), 8.1));
+  const auto stays = advanced(walker(MovingObstacle::After::stays), 9.0);
   ASSERT_TRUE(stays);
   ASSERT_EQ(stays->motion.size(), 1U);
   EXPECT_EQ(stays->motion[0].t, 0.0);
@@ -607,10 +604,10 @@ TEST(AdvancedObstacle, VanishesOrStays) {
 }
 
 TEST(Advance, ARobotWithoutAPlanThatIsServedWhereItStandsDoesNotGrow) {
-  core::Robot waiting = robot();
+  Robot waiting = robot();
   waiting.via[0].position = waiting.start.position;
   waiting.via[0].radius_after = 0.9;
-  const core::Robot next = advanced(waiting, {{}, false}, moment(6.0));
+  const Robot next = advanced(waiting, {{}, false}, moment(6.0));
   EXPECT_EQ(next.radius, waiting.radius);
   EXPECT_EQ(next.goal_count(), 2U);
   EXPECT_EQ(next.via[0].service, 0.0);
@@ -618,4 +615,4 @@ TEST(Advance, ARobotWithoutAPlanThatIsServedWhereItStandsDoesNotGrow) {
 }
 
 }  // namespace TEST_FILE
-}  // namespace fleetplan::api
+}  // namespace fleetplan::core

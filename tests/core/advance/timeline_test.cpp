@@ -1,3 +1,5 @@
+#include "core/advance/timeline.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -5,22 +7,20 @@
 #include <numbers>
 #include <vector>
 
-#include "api/advance/advance.h"
-#include "api/request/fleet/parse_actions.h"
+#include "core/advance/inertia.h"
+#include "core/advance/released.h"
 #include "core/geometry/position.h"
-#include "tests/api/advance/driving_fleet.h"
+#include "tests/core/advance/driving_fleet.h"
 
-namespace fleetplan::api {
+namespace fleetplan::core {
 namespace TEST_FILE {
 
-using core::Action;
-using core::Pose;
-using Type = core::Action::Type;
+using Type = Action::Type;
 
 constexpr double kQuarter = std::numbers::pi / 2.0;
 
-core::Robot robot() {
-  core::Robot robot = robot_at(at_x(1.0));
+Robot robot() {
+  Robot robot = robot_at(at_x(1.0));
   robot.angular_speed = kQuarter;
   return robot;
 }
@@ -52,7 +52,7 @@ void expect_contiguous(const Remainder& rest) {
     EXPECT_EQ(action.from.theta, pose.theta);
     EXPECT_GT(action.t_end, action.t_start);
     if (action.type == Type::translate) {
-      const core::Position path = action.to.position - action.from.position;
+      const Position path = action.to.position - action.from.position;
       EXPECT_NEAR(std::atan2(path.y(), path.x()), action.from.theta, 1e-9);
       EXPECT_EQ(action.from.theta, action.to.theta);
     }
@@ -107,17 +107,16 @@ TEST(Timeline, ActionsAreCutWhereTheyAreUnderWay) {
 }
 
 /// Ahead at speed, then on through a slow part, from rest to rest.
-std::vector<Action> through_two_parts(const core::Inertia& inertia) {
+std::vector<Action> through_two_parts(const Inertia& inertia) {
   std::vector<Action> parts{{Type::translate, 0.0, 0.0, at_x(1.0), at_x(5.0)},
                             {Type::translate, 0.0, 0.0, at_x(5.0), at_x(6.0)}};
-  parts[0].profile = core::SpeedProfile{0.0, 2.0, 0.0, inertia};
-  parts[1].profile = core::SpeedProfile{0.0, 0.5, 0.0, inertia};
+  parts[0].profile = SpeedProfile{0.0, 2.0, 0.0, inertia};
+  parts[1].profile = SpeedProfile{0.0, 0.5, 0.0, inertia};
   return driven_from(parts, 0.0, 0.0);
 }
 
 TEST(Timeline, ARobotThatNeedsTimeToStopBrakesAsLateAsItCan) {
-  for (const core::Inertia& inertia :
-       std::vector<core::Inertia>{{1.0, 0.5}, {0.3, 2.0}, {0.0, 1.0}, {1.0, 0.0}}) {
+  for (const Inertia& inertia : std::vector<Inertia>{{1.0, 0.5}, {0.3, 2.0}, {0.0, 1.0}, {1.0, 0.0}}) {
     const std::vector<Action> chain = through_two_parts(inertia);
     const double end = chain.back().t_end;
     for (int k = 0; k <= 60; ++k) {
@@ -156,7 +155,7 @@ TEST(Timeline, ActionsThatOverlapInTimeFollowEachOther) {
 
 /// Rounding of a short action is far more than that of a long one, relative to its length.
 TEST(Timeline, ActionsThatBecomeLongerAreNoFasterThanTheRobot) {
-  core::Robot fast = robot();
+  Robot fast = robot();
   fast.linear_speed = 1.0;
   fast.angular_speed = 2.0;
   const Pose start = at_x(1.0);
@@ -171,7 +170,7 @@ TEST(Timeline, ActionsThatBecomeLongerAreNoFasterThanTheRobot) {
     const Remainder rest = remainder_of_measured(fast, actions, pose, *progress, 4.0);
     expect_contiguous(rest);
     for (const Action& action : rest.actions) {
-      const double turn = std::abs(core::rotation_between(action.from.theta, action.to.theta));
+      const double turn = std::abs(rotation_between(action.from.theta, action.to.theta));
       const double way = (action.to.position - action.from.position).norm();
       EXPECT_LE(turn, 2.0 * (action.t_end - action.t_start) + 1e-9);
       EXPECT_LE(way, (action.t_end - action.t_start) + 1e-9);
@@ -300,11 +299,11 @@ TEST(Timeline, ATranslationAlongAnotherLineEndsInThePlannedHeading) {
 TEST(Timeline, BesideALineThatGoesOnAtSpeedARobotStandsAndTurnsToIt) {
   const auto chain = through_two_parts({1.0, 0.5});
   ASSERT_GT(chain[0].profile->end, 0.0);
-  core::Robot braking = robot();
+  Robot braking = robot();
   braking.linear_acceleration = 1.0;
   braking.linear_deceleration = 2.0;
   const double at = 2.0;
-  const Pose beside{pose_at(chain[0], at).position + core::Position(0.0, 0.05), 0.0};
+  const Pose beside{pose_at(chain[0], at).position + Position(0.0, 0.05), 0.0};
   const Remainder rest = remainder_of_measured(braking, chain, beside, {0, at}, at, std::nullopt);
   expect_contiguous(rest);
   ASSERT_EQ(rest.actions.size(), 3U);
@@ -332,4 +331,4 @@ TEST(Timeline, APoseBesideThePathIsNoProgress) {
 }
 
 }  // namespace TEST_FILE
-}  // namespace fleetplan::api
+}  // namespace fleetplan::core

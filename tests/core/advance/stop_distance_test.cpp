@@ -3,27 +3,23 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <string>
 #include <utility>
 #include <vector>
 
-#include "api/advance/advance.h"
-#include "api/endpoints/endpoints.h"
-#include "tests/api/advance/driving_fleet.h"
-#include "tests/api/support/requests.h"
+#include "core/advance/advance.h"
+#include "core/advance/timeline.h"
+#include "tests/core/advance/driving_fleet.h"
 
-namespace fleetplan::api {
+namespace fleetplan::core {
 namespace TEST_FILE {
 
-using core::Action;
-using core::Pose;
-using Type = core::Action::Type;
+using Type = Action::Type;
 
 TEST(StopDistance, NoCommitmentEndsSooner) {
   DrivingFleet line;
   line.add_on_line(1.0, 9.0, 0.5);
   for (const auto& [commit, until] : {std::pair{0.0, 0.5}, {0.3, 0.5}, {0.8, 0.8}}) {
-    const core::Robot next = line.advance(2.0, commit)[0];
+    const Robot next = line.advance(2.0, commit)[0];
     EXPECT_DOUBLE_EQ(next.committed_until(), until);
     EXPECT_DOUBLE_EQ(next.committed_end().position.x(), 3.0 + until);
     ASSERT_EQ(next.previous->size(), 2U);
@@ -78,7 +74,7 @@ TEST(StopDistance, TranslationsThatGoOnAreOne) {
   line.executions[0].actions = {{Type::translate, 0.0, 2.2, at_x(1.0), border},
                                 {Type::translate, 2.2, 3.2, border, at_x(3.7)},
                                 {Type::translate, 3.2, 4.2, at_x(3.7), at_x(9.0)}};
-  const core::Robot next = line.advance(2.0, 0.0)[0];
+  const Robot next = line.advance(2.0, 0.0)[0];
   EXPECT_DOUBLE_EQ(next.committed_end().position.x(), 3.5);
   EXPECT_DOUBLE_EQ(next.committed_until(), 0.8);
   EXPECT_DOUBLE_EQ(line.advance(2.2, 0.0)[0].committed_end().position.x(), 3.7) << "on the border";
@@ -94,7 +90,7 @@ TEST(StopDistance, AnEarlyRobotDrivesOnWhereItsPlanHasNoStop) {
                                 {Type::translate, 2.2, 3.2, border, at_x(4.2)},
                                 {Type::rotate, 3.2, 4.2, at_x(4.2), at_x(4.2, 1.0)}};
   line.executions[0].reported = ReportedState{{0, 2.0 / 2.2}, {}, {}};  // at 3 m, a second early
-  const core::Robot next = line.advance(1.0, 0.0)[0];
+  const Robot next = line.advance(1.0, 0.0)[0];
   EXPECT_DOUBLE_EQ(next.committed_end().position.x(), 3.5);
   EXPECT_NEAR(next.committed_until(), 0.5, 1e-9);
   const auto& rest = *next.previous;
@@ -109,7 +105,7 @@ TEST(StopDistance, AHoldBeginsWhereTheRobotStands) {
   DrivingFleet line;
   line.add_on_line(1.0, 9.0, 0.5);
   line.executions[0].hold = 30.0;
-  const core::Robot next = line.advance(2.0, 1.0)[0];
+  const Robot next = line.advance(2.0, 1.0)[0];
   ASSERT_EQ(next.committed.size(), 2U);
   EXPECT_DOUBLE_EQ(next.committed[0].to.position.x(), 3.5);
   EXPECT_EQ(next.committed[1].type, Type::wait);
@@ -161,7 +157,7 @@ TEST(StopDistance, TwoThatCannotStopAreNamedAndTheirCommitmentsEndWhereTheyTouch
   line.add_on_line(1.0, 9.0, 2.0);
   line.add_on_line(7.0, 1.0, 2.0);
   // At 3 m and 5 m, 1.5 m apart.
-  for (const core::Robot& next : line.advance(2.0, 1.0)) EXPECT_NEAR(next.committed_until(), 0.75, 1e-6);
+  for (const Robot& next : line.advance(2.0, 1.0)) EXPECT_NEAR(next.committed_until(), 0.75, 1e-6);
   const auto collisions = line.collisions(2.0, 1.0);
   ASSERT_EQ(collisions.size(), 1U);
   EXPECT_EQ(collisions[0].first, 0U);
@@ -210,75 +206,5 @@ TEST(StopDistance, ACommitmentTowardsOneThatMayLeaveStays) {
   EXPECT_NEAR(line.advance(2.0, 0.0)[0].committed_until(), 1.0, 1e-6) << "one without a goal never leaves";
 }
 
-/// A robot that needs a metre to stop drives towards one that stands in a wide corridor.
-Json towards_another(double stop_distance) {
-  return {{"request", Json::parse(R"({
-            "map": {"rows": ["..........", "..........", ".........."]},
-            "robot_defaults": {"radius": 0.3, "linear_speed": 1.0, "angular_speed": 3.0, "stop_distance": )" +
-                                  std::to_string(stop_distance) + R"(},
-            "robots": [{"id": "a", "start": {"x": 0.5, "y": 1.5, "theta": 0}, "goal": {"x": 9.5, "y": 1.5}},
-                       {"id": "b", "start": {"x": 4.5, "y": 1.5, "theta": 1.5}, "goal": {"x": 4.5, "y": 2.5}}]})")},
-          {"plans", Json::parse(R"([
-            {"robot": "a", "cost": 9, "actions": [{"type": "translate", "t_start": 0, "t_end": 9,
-             "from": {"x": 0.5, "y": 1.5, "theta": 0}, "to": {"x": 9.5, "y": 1.5, "theta": 0}}]},
-            {"robot": "b", "cost": 0, "actions": []}])")},
-          {"at", 2.5},
-          {"commit", 0.0}};
-}
-
-Json advanced_json(const Json& body) {
-  const Reply reply = advance_endpoint(body.dump(), {});
-  EXPECT_EQ(reply.status, 200) << reply.body;
-  return json_of(reply);
-}
-
-TEST(StopDistance, IsOfTheRobotOrOfTheDefaults) {
-  Json body = towards_another(1.0);
-  EXPECT_EQ(advanced_json(body)["robots"][0]["committed"][0]["t_end"], 1.0);
-  body["request"]["robots"][0]["stop_distance"] = 0.25;
-  const Json next = advanced_json(body);
-  EXPECT_EQ(next["robots"][0]["committed"][0]["t_end"], 0.25);
-  EXPECT_EQ(next["robots"][0]["stop_distance"], 0.25);
-  EXPECT_EQ(next["robot_defaults"]["stop_distance"], 1.0);
-  EXPECT_FALSE(next.contains("unavoidable"));
-}
-
-TEST(StopDistance, ThoseThatCannotAvoidEachOtherAreNamedAndCanBePlanned) {
-  Json body = towards_another(2.0);
-  const Json next = advanced_json(body);
-  ASSERT_EQ(next["unavoidable"].size(), 1U) << next;
-  EXPECT_EQ(next["unavoidable"][0]["robots"], Json::parse(R"(["a", "b"])"));
-  EXPECT_NEAR(next["unavoidable"][0]["t"].get<double>(), 0.9, 1e-5);
-  const Json plan = json_of(plan_endpoint(next.dump(), {}));
-  EXPECT_EQ(plan["status"], "solved") << "the other one leaves: " << plan;
-  body["at"] = 3.2;
-  const Reply late = plan_endpoint(advanced_json(body).dump(), {});
-  EXPECT_EQ(late.status, 200) << late.body;
-  EXPECT_EQ(json_of(late)["unavoidable"].size(), 1U) << late.body;
-}
-
-TEST(StopDistance, ARequestOfTwoThatCannotStopIsAccepted) {
-  Json body = towards_another(3.0);
-  Json& plan = body["plans"][1];
-  plan["actions"] = Json::parse(R"([{"type": "translate", "t_start": 0, "t_end": 4,
-    "from": {"x": 7.5, "y": 1.5, "theta": 3.141592653589793},
-    "to": {"x": 3.5, "y": 1.5, "theta": 3.141592653589793}}])");
-  plan["cost"] = 4;
-  body["request"]["robots"][1]["start"] = plan["actions"][0]["from"];
-  body["at"] = 2.0;
-  const Json next = advanced_json(body);
-  EXPECT_EQ(next["unavoidable"].size(), 1U) << next;
-  EXPECT_EQ(plan_endpoint(next.dump(), {}).status, 200);
-}
-
-TEST(StopDistance, IsALength) {
-  Json body = towards_another(1.0);
-  body["request"]["robot_defaults"]["stop_distance"] = -1.0;
-  const Reply reply = advance_endpoint(body.dump(), {});
-  EXPECT_EQ(reply.status, 422);
-  EXPECT_EQ(json_of(reply)["errors"][0]["pointer"], "/request/robot_defaults/stop_distance");
-  EXPECT_EQ(json_of(reply)["errors"][0]["code"], "out_of_range");
-}
-
 }  // namespace TEST_FILE
-}  // namespace fleetplan::api
+}  // namespace fleetplan::core

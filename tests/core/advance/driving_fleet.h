@@ -8,20 +8,21 @@
 #include <utility>
 #include <vector>
 
-#include "api/advance/advance.h"
+#include "core/advance/advance.h"
+#include "core/advance/commitment_collisions.h"
 #include "tests/support/unbounded_work.h"
 
-namespace fleetplan::api {
+namespace fleetplan::core {
 
-inline core::Pose at_x(double x, double theta = 0.0) { return {{x, 1.0}, theta}; }
+inline Pose at_x(double x, double theta = 0.0) { return {{x, 1.0}, theta}; }
 
 inline Moment moment(double at, std::optional<double> commit = {}, double wait_before_move = 0.0) {
   return {at, commit, 0.1, wait_before_move};
 }
 
 /// A robot with speeds of 1 m/s and 1 rad/s, without a goal.
-inline core::Robot robot_at(const core::Pose& start, double radius = 0.25) {
-  core::Robot robot;
+inline Robot robot_at(const Pose& start, double radius = 0.25) {
+  Robot robot;
   robot.radius = radius;
   robot.linear_speed = robot.angular_speed = 1.0;
   robot.start = start;
@@ -30,11 +31,11 @@ inline core::Robot robot_at(const core::Pose& start, double radius = 0.25) {
 
 /// Robots and the plans that they execute.
 struct DrivingFleet {
-  std::vector<core::Robot> robots = {};
+  std::vector<Robot> robots = {};
   std::vector<Execution> executions = {};
   double inflation = 0.0;
 
-  void add(const core::Robot& robot, std::vector<core::Action> actions) {
+  void add(const Robot& robot, std::vector<Action> actions) {
     robots.push_back(robot);
     executions.push_back({std::move(actions), true});
   }
@@ -42,18 +43,17 @@ struct DrivingFleet {
   /// Adds a robot that drives along the line at 1 m/s, or stands if it is at its goal.
   void add_on_line(double from, double to, double stop_distance = 0.0) {
     const double heading = to < from ? std::numbers::pi : 0.0;
-    core::Robot robot = robot_at(at_x(from, heading));
-    robot.goal = core::Goal{at_x(to).position, std::nullopt};
-    std::vector<core::Action> actions;
+    Robot robot = robot_at(at_x(from, heading));
+    robot.goal = Goal{at_x(to).position, std::nullopt};
+    std::vector<Action> actions;
     if (to != from) {
-      actions.push_back(
-          {core::Action::Type::translate, 0.0, std::abs(to - from), robot.start, at_x(to, heading)});
+      actions.push_back({Action::Type::translate, 0.0, std::abs(to - from), robot.start, at_x(to, heading)});
     }
     add(robot, std::move(actions));
     executions.back().stop_distance = stop_distance;
   }
 
-  std::vector<core::Robot> advance(double at, std::optional<double> commit = {}) const {
+  std::vector<Robot> advance(double at, std::optional<double> commit = {}) const {
     Motions motions{braking(at, commit)};
     return advanced(robots, executions, moment_of(at, commit), motions, unbounded_work());
   }
@@ -64,7 +64,7 @@ struct DrivingFleet {
   }
 
  private:
-  std::vector<std::vector<core::Action>> braking(double at, std::optional<double> commit) const {
+  std::vector<std::vector<Action>> braking(double at, std::optional<double> commit) const {
     return braking_of(robots, executions, moment_of(at, commit), unbounded_work());
   }
 
@@ -75,4 +75,4 @@ struct DrivingFleet {
   }
 };
 
-}  // namespace fleetplan::api
+}  // namespace fleetplan::core

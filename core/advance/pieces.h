@@ -14,7 +14,7 @@
 #include "core/model/surroundings.h"
 #include "core/runtime/stop_condition.h"
 
-namespace fleetplan::api {
+namespace fleetplan::core {
 
 /// Copying a piece, or comparing two, is as much work as reading so many bytes.
 inline constexpr std::size_t kWorkOfAPiece = 64;
@@ -23,17 +23,15 @@ inline constexpr std::size_t kWorkOfAPiece = 64;
 struct Piece {
   double begin;
   double end;
-  core::Position from;
-  core::Position velocity;  // the mean
-  double radius = 0.0;      // of the bare disk
-  bool grows = false;       // it is smaller before
-  double ramp = 0.0;        // see core::TimedSegment
+  Position from;
+  Position velocity;    // the mean
+  double radius = 0.0;  // of the bare disk
+  bool grows = false;   // it is smaller before
+  double ramp = 0.0;    // see TimedSegment
 
-  core::Position at(double t) const {
-    return ramp == 0.0 ? core::Position(from + velocity * (t - begin)) : disk().at(t);
-  }
-  core::MovingDisk disk() const {
-    core::MovingDisk disk;
+  Position at(double t) const { return ramp == 0.0 ? Position(from + velocity * (t - begin)) : disk().at(t); }
+  MovingDisk disk() const {
+    MovingDisk disk;
     disk.from = from;
     disk.velocity = velocity;
     disk.t_start = begin;
@@ -45,10 +43,10 @@ struct Piece {
 };
 
 /// Returns the pieces of the commitment, and then the stay at its end, which has no end.
-std::vector<Piece> committed_pieces(const core::Robot& robot);
+std::vector<Piece> committed_pieces(const Robot& robot);
 
 /// Returns the pieces of an obstacle, as long as it is there.
-std::vector<Piece> pieces_of(const core::MovingObstacle& obstacle);
+std::vector<Piece> pieces_of(const MovingObstacle& obstacle);
 
 /// Returns when two pieces begin to be nearer than a distance, in the time of both; at the beginning of that
 /// time if they are nearer then and come nearer.
@@ -57,7 +55,7 @@ std::optional<double> first_overlap(const Piece& a, const Piece& b, double dista
 /// Calls visit(piece, other) for the pieces of two robots whose times overlap, in the order of time, until it
 /// returns true or `work` is met.
 template <class Visit>
-void visit_in_time(std::span<const Piece> pieces, std::span<const Piece> others, core::Work& work,
+void visit_in_time(std::span<const Piece> pieces, std::span<const Piece> others, Work& work,
                    const Visit& visit) {
   std::size_t i = 0;
   for (std::size_t k = 0; k < pieces.size() && i < others.size();) {
@@ -66,4 +64,4 @@ void visit_in_time(std::span<const Piece> pieces, std::span<const Piece> others,
   }
 }
 
-}  // namespace fleetplan::api
+}  // namespace fleetplan::core

@@ -1,4 +1,4 @@
-#include "api/advance/pieces.h"
+#include "core/advance/pieces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,7 @@
 #include "core/model/itinerary.h"
 #include "core/model/loads.h"
 
-namespace fleetplan::api {
-
-using core::Position;
+namespace fleetplan::core {
 
 namespace {
 
@@ -18,10 +16,10 @@ constexpr double kNearer = 1e-9;
 
 }  // namespace
 
-std::vector<Piece> committed_pieces(const core::Robot& robot) {
-  std::vector<core::RadiusStep> steps;
-  if (core::changes_radius(robot)) {
-    steps = core::radius_steps(robot, core::itinerary_of(robot).visited);
+std::vector<Piece> committed_pieces(const Robot& robot) {
+  std::vector<RadiusStep> steps;
+  if (changes_radius(robot)) {
+    steps = radius_steps(robot, itinerary_of(robot).visited);
   }
   std::vector<Piece> pieces;
   double radius = robot.radius;
@@ -45,13 +43,13 @@ std::vector<Piece> committed_pieces(const core::Robot& robot) {
     piece.radius = radius;
     pieces.push_back(piece);
   };
-  for (const core::Action& action : robot.committed) {
+  for (const Action& action : robot.committed) {
     const double duration = action.t_end - action.t_start;
     const Position path = action.to.position - action.from.position;
     const Position velocity = duration > 0.0 ? Position(path / duration) : Position(0.0, 0.0);
     if (action.profile && path.squaredNorm() > 0.0 && duration > 0.0) {
-      const core::TimedSegment move{{action.from.position, action.to.position}, action.t_start, action.t_end};
-      for (const core::TimedSegment& phase : core::phases(move, *action.profile)) {
+      const TimedSegment move{{action.from.position, action.to.position}, action.t_start, action.t_end};
+      for (const TimedSegment& phase : phases(move, *action.profile)) {
         add({.begin = phase.t_start,
              .end = phase.t_end,
              .from = phase.path.from,
@@ -69,7 +67,7 @@ std::vector<Piece> committed_pieces(const core::Robot& robot) {
   return pieces;
 }
 
-std::vector<Piece> pieces_of(const core::MovingObstacle& obstacle) {
+std::vector<Piece> pieces_of(const MovingObstacle& obstacle) {
   std::vector<Piece> pieces;
   const auto& motion = obstacle.motion;
   for (std::size_t k = 0; k + 1 < motion.size(); ++k) {
@@ -80,7 +78,7 @@ std::vector<Piece> pieces_of(const core::MovingObstacle& obstacle) {
                       .velocity = (motion[k + 1].position - motion[k].position) / duration,
                       .radius = obstacle.radius});
   }
-  const bool stays = obstacle.after == core::MovingObstacle::After::stays;
+  const bool stays = obstacle.after == MovingObstacle::After::stays;
   const double end = stays ? std::numeric_limits<double>::infinity() : motion.back().t;
   pieces.push_back({.begin = motion.back().t,
                     .end = end,
@@ -97,7 +95,7 @@ std::optional<double> first_overlap(const Piece& a, const Piece& b, double dista
   const Position apart = a.at(begin) - b.at(begin);
   if (a.ramp != 0.0 || b.ramp != 0.0) {
     // Disks that are too near already may go on, but not come nearer.
-    const auto met = core::overlap(a.disk(), b.disk(), std::min(distance, apart.norm() - kNearer));
+    const auto met = overlap(a.disk(), b.disk(), std::min(distance, apart.norm() - kNearer));
     return met && met->begin < end ? std::optional(met->begin) : std::nullopt;
   }
   const Position velocity = a.velocity - b.velocity;
@@ -112,4 +110,4 @@ std::optional<double> first_overlap(const Piece& a, const Piece& b, double dista
   return t < end ? std::optional(t) : std::nullopt;
 }
 
-}  // namespace fleetplan::api
+}  // namespace fleetplan::core

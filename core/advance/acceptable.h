@@ -1,0 +1,48 @@
+#pragma once
+
+// Whether the next request can be planned wherever robots were measured: what has to be left out of their
+// commitments, and what nobody can mend.
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/advance/commitment_collisions.h"
+#include "core/advance/committed_motion.h"
+#include "core/advance/moment.h"
+#include "core/geometry/position.h"
+#include "core/map/static_map.h"
+#include "core/model/plan_options.h"
+#include "core/model/robot.h"
+#include "core/model/surroundings.h"
+#include "core/runtime/stop_condition.h"
+
+namespace fleetplan::core {
+
+/// What the next request is judged by when it is planned.
+struct Judgement {
+  PlanOptions options = {};
+  std::vector<Zone> zones = {};
+  bool reports_invalid = false;  // robots in walls are reported, the others are planned
+  /// Positions as who plans them reads them: rounded in the frame of the client.
+  std::function<Position(const Position&)> read_back;
+  /// The map, if it is needed; null if there is no time or memory for it.
+  std::function<std::shared_ptr<const StaticMap>()> map;
+};
+
+/// What is wrong with where robots are, and cannot be mended.
+struct Circumstances {
+  std::optional<double> start_overlap = {};  // metres that starts may overlap; none: as the options allow
+  bool some_in_walls = false;                // robots whose centres are, which have to be reported as invalid
+  Collisions unavoidable = {};
+};
+
+/// Ends committed actions of robots that were measured, or have reported where they are, before they meet
+/// walls or zones, or break the rules of zones, as Problem judges it; then those of others that would drive
+/// into them, see clear_commitments. `next`: the robots that follow from those of the fleet. Ends early when
+/// `work` is met.
+Circumstances make_acceptable(const FleetInMotion& fleet, const Judgement& judgement,
+                              std::vector<Robot>& next, Motions& motions, Work& work);
+
+}  // namespace fleetplan::core
