@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/checked_plan.h"
 #include "core/model/objective_share.h"
 #include "core/replan/kept_plans.h"
 #include "core/runtime/executor.h"
@@ -89,15 +90,16 @@ Plan plan(const Problem& problem, const Options& options, const Control& control
   const core::StopCondition stop(end_of(options.time_budget, begin), control.stop);
   const Clock::time_point started = Clock::now();
   const core::Plan found = planned(*made.problem, core_options, stop, control);
-  Plan plan = library::plan_of(found, problem);
-  plan.objective_value = core::objective_value(found, made.problem->robots(), core_options.objective);
-  plan.search.seconds = std::chrono::duration<double>(Clock::now() - started).count();
-  if (!found.unavoidable_known) return plan;
-
-  const Clock::time_point now = Clock::now();
-  const auto patience = stop.even_if_cancelled(
-      control.stop.stop_requested() ? now + kPatience : std::max(stop.deadline(), now + kPatience));
-  const auto report = core::check_plan(*made.problem, core_options, found, patience);
+  const double seconds = std::chrono::duration<double>(Clock::now() - started).count();
+  const auto patience = [&] {
+    const Clock::time_point now = Clock::now();
+    return stop.even_if_cancelled(control.stop.stop_requested() ? now + kPatience
+                                                                : std::max(stop.deadline(), now + kPatience));
+  };
+  const auto [checked, report] = core::check(found, *made.problem, core_options, patience(), patience);
+  Plan plan = library::plan_of(checked, problem);
+  plan.objective_value = core::objective_value(checked, made.problem->robots(), core_options.objective);
+  plan.search.seconds = seconds;
   if (!report) return plan;
   if (!report->valid()) {
     throw std::logic_error("fleetplan made a plan that its checker rejects: " +

@@ -15,7 +15,7 @@
 #include "api/request/parse_request.h"
 #include "api/response/reply.h"
 #include "api/response/write_response.h"
-#include "core/commitments/unavoidable_collisions.h"
+#include "core/checked_plan.h"
 #include "core/instance/instance.h"
 #include "core/model/objective_share.h"
 #include "core/model/plan.h"
@@ -94,44 +94,6 @@ Reply unchecked(PlanOutcome outcome, bool has_obstacles, const std::string& requ
   return reply;
 }
 
-bool moves(const core::RobotPlan& plan, const core::Problem& problem) {
-  return plan.actions.size() > problem.robots()[plan.robot].committed.size();
-}
-
-/// Returns what is left of a plan when all robots that would move stay at their starts, or at the end of what
-/// is committed.
-core::Plan without_moves(const core::Plan& plan, const core::Problem& problem,
-                         const core::StopCondition& stop) {
-  core::Plan left;
-  left.deterministic = false;
-  left.search = plan.search;
-  left.unplanned = plan.unplanned;
-  if (plan.estimated) left.estimated = core::Objectives();
-  for (const core::RobotPlan& robot : plan.plans) {
-    const core::Robot& of = problem.robots()[robot.robot];
-    if (moves(robot, problem) && of.is_idle()) {
-      left.plans.push_back({robot.robot, of.committed_until(), of.committed, of.committed_until()});
-      if (left.estimated) left.estimated->flowtime += of.committed_until();
-    } else if (!moves(robot, problem)) {
-      left.plans.push_back(robot);
-      if (left.estimated) left.estimated->flowtime += robot.cost;
-    } else {
-      left.unplanned.push_back({robot.robot,
-                                core::Unplanned::Reason::budget_exhausted,
-                                "The time budget ended before the plan was checked.",
-                                {}});
-    }
-  }
-  std::sort(left.unplanned.begin(), left.unplanned.end(),
-            [](const core::Unplanned& a, const core::Unplanned& b) { return a.robot < b.robot; });
-  // A robot that is at its goal, or has none, stays, too.
-  core::UnavoidableCollisions found =
-      core::unavoidable_collisions(problem, std::vector<bool>(problem.robots().size(), false), stop);
-  left.unavoidable = std::move(found.collisions);
-  left.unavoidable_known = found.finished;
-  return left;
-}
-
 /// Returns the spacings of the lattices by robot, metres; none if all are simply the map's resolution.
 std::vector<double> reported_spacings(const PlanRequest& request) {
   std::vector<double> spacings = core::lattice_spacings(request.problem, request.options);
@@ -190,20 +152,9 @@ std::vector<std::string> stuck_warning(const core::Plan& plan, const std::vector
 Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std::string& request_id,
                   StageTimes stages, const core::StopCondition& stop, const AnsweredPlan& on_answer) {
   stages.planned = StageTimes::Clock::now();
-  const auto check = [&](const core::Plan& checked, const core::StopCondition& patience) {
-    return core::check_plan(request.problem, request.options, checked, patience);
-  };
-  const bool any_moves = std::any_of(plan.plans.begin(), plan.plans.end(), [&](const core::RobotPlan& robot) {
-    return moves(robot, request.problem);
-  });
-  std::optional<core::VerifyReport> report;
-  if (any_moves && plan.unavoidable_known) report = check(plan, check_stop(stop, request).despite_memory());
-  core::Plan less;
-  const bool is_whole = report || (!any_moves && plan.unavoidable_known);
-  const core::StopCondition last = last_stop(stages, stop, request);
-  if (!is_whole) less = without_moves(plan, request.problem, last);
-  const core::Plan& answered = is_whole ? plan : less;
-  if (!report && answered.unavoidable_known) report = check(answered, last);
+  const auto [answered, report] =
+      core::check(plan, request.problem, request.options, check_stop(stop, request).despite_memory(),
+                  [&] { return last_stop(stages, stop, request); });
   const PlanOutcome outcome =
       outcome_of(answered, std::chrono::duration<double>(stages.planned - stages.started).count());
   if (!report && stop.cancelled()) return problem_reply(ErrorCode::draining, kDrainingDetail, request_id);

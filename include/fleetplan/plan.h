@@ -100,8 +100,9 @@ struct Plan {
   /// The value of Options::objective, seconds; by the estimates where plans stop at the horizon.
   double objective_value = 0.0;
   Objectives lower_bound;  // objectives of the planned robots' lower bounds
-  /// Whether the independent checker (verify.h) has found no violation. False only if the time did not
-  /// suffice for the check. A plan that it rejects is never returned, see plan().
+  /// Whether the independent checker (verify.h) has found no violation. If the time does not suffice, robots
+  /// that would move stay; false only if not even that could be checked. A plan that it rejects is never
+  /// returned, see plan().
   bool verified = false;
   /// Metres: the smallest gap between two disks over all time; none for fewer than two robots, or unless
   /// verified.

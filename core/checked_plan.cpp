@@ -1,0 +1,66 @@
+#include "core/checked_plan.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "core/commitments/unavoidable_collisions.h"
+
+namespace fleetplan::core {
+
+namespace {
+
+bool moves(const RobotPlan& plan, const Problem& problem) {
+  return plan.actions.size() > problem.robots()[plan.robot].committed.size();
+}
+
+/// Returns what is left of a plan when all robots that would move stay at their starts, or at the end of what
+/// is committed.
+Plan without_moves(const Plan& plan, const Problem& problem, const StopCondition& stop) {
+  Plan left;
+  left.deterministic = false;
+  left.search = plan.search;
+  left.unplanned = plan.unplanned;
+  if (plan.estimated) left.estimated = Objectives();
+  for (const RobotPlan& robot : plan.plans) {
+    const Robot& of = problem.robots()[robot.robot];
+    if (moves(robot, problem) && of.is_idle()) {
+      left.plans.push_back({robot.robot, of.committed_until(), of.committed, of.committed_until()});
+      if (left.estimated) left.estimated->flowtime += of.committed_until();
+    } else if (!moves(robot, problem)) {
+      left.plans.push_back(robot);
+      if (left.estimated) left.estimated->flowtime += robot.cost;
+    } else {
+      left.unplanned.push_back({robot.robot,
+                                Unplanned::Reason::budget_exhausted,
+                                "The time budget ended before the plan was checked.",
+                                {}});
+    }
+  }
+  std::sort(left.unplanned.begin(), left.unplanned.end(),
+            [](const Unplanned& a, const Unplanned& b) { return a.robot < b.robot; });
+  // A robot that is at its goal, or has none, stays, too.
+  UnavoidableCollisions found =
+      unavoidable_collisions(problem, std::vector<bool>(problem.robots().size(), false), stop);
+  left.unavoidable = std::move(found.collisions);
+  left.unavoidable_known = found.finished;
+  return left;
+}
+
+}  // namespace
+
+CheckedPlan check(const Plan& plan, const Problem& problem, const PlanOptions& options,
+                  const StopCondition& stop, const std::function<auto()->StopCondition>& last) {
+  const bool any_moves = std::any_of(plan.plans.begin(), plan.plans.end(),
+                                     [&](const RobotPlan& robot) { return moves(robot, problem); });
+  if (any_moves && plan.unavoidable_known) {
+    if (auto report = check_plan(problem, options, plan, stop)) return {plan, std::move(report)};
+  }
+  const StopCondition end = last();
+  const bool is_whole = !any_moves && plan.unavoidable_known;
+  CheckedPlan checked{is_whole ? plan : without_moves(plan, problem, end), std::nullopt};
+  if (checked.plan.unavoidable_known) checked.report = check_plan(problem, options, checked.plan, end);
+  return checked;
+}
+
+}  // namespace fleetplan::core
