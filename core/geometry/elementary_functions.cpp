@@ -69,31 +69,27 @@ double sine_of_turned(const Reduced& angle, int quadrant) {
   return quadrant < 2 ? value : -value;
 }
 
-/// A number as a sum of one of 26 bits and a rest, whose products are exact (Dekker, A floating-point
-/// technique for extending the available precision, 1971).
-struct Split {
-  explicit Split(double x) {
-    constexpr double kFactor = 134217729.0;  // 2^27 + 1
-    const double scaled = kFactor * x;
-    high = scaled - (scaled - x);
-    low = x - high;
-  }
-  double high;
-  double low;
-};
-
-/// What a product has lost by rounding.
-double lost_by_product(double a, double b, double product) {
-  const Split x(a);
-  const Split y(b);
-  return ((x.high * y.high - product) + x.high * y.low + x.low * y.high) + x.low * y.low;
-}
-
 /// A number as a sum of two.
 struct Double {
   double high;
   double low;
 };
+
+/// A number as a sum of one of 26 bits and a rest, whose products are exact (Dekker, A floating-point
+/// technique for extending the available precision, 1971).
+Double split(double x) {
+  constexpr double kFactor = 134217729.0;  // 2^27 + 1
+  const double scaled = kFactor * x;
+  const double high = scaled - (scaled - x);
+  return {high, x - high};
+}
+
+/// What a product has lost by rounding.
+double lost_by_product(double a, double b, double product) {
+  const Double x = split(a);
+  const Double y = split(b);
+  return ((x.high * y.high - product) + x.high * y.low + x.low * y.high) + x.low * y.low;
+}
 
 /// The sum of two numbers, exactly (Knuth, The Art of Computer Programming, volume 2).
 Double exact_sum(double a, double b) {
@@ -120,7 +116,7 @@ constexpr std::array<Double, kEighths + 1> kArctangents{{
 /// tan(a - b), where tan a = part / whole, at most 1, and tan b = eighths / 8 is the nearest to it.
 Double tangent_of_rest(double part, double whole, int eighths) {
   const double tangent = eighths / static_cast<double>(kEighths);
-  const Split of_whole(whole);
+  const Double of_whole = split(whole);
   const double above = (part - tangent * of_whole.high) - tangent * of_whole.low;
   const double product = tangent * part;
   const double below = whole + product;
@@ -167,7 +163,7 @@ double arctangent(double y, double x) {
   const bool is_steep = up > across;
   const double part = is_steep ? across : up;
   const double whole = is_steep ? up : across;
-  const int eighths = whole > 0.0 ? static_cast<int>(kEighths * (part / whole) + 0.5) : 0;
+  const int eighths = whole > 0.0 ? static_cast<int>(std::nearbyint(kEighths * (part / whole))) : 0;
   const Double tangent = whole > 0.0 ? tangent_of_rest(part, whole, eighths) : Double{0.0, 0.0};
   // The angle is `from` plus or minus the arctangents of the eighths and of the rest.
   const bool is_left = std::signbit(x);

@@ -45,7 +45,8 @@ class Smoothing {
     if (kind < kInsertions) {
       const std::size_t end = 1 + random_.below(path_.stop_count() - 1);
       const Segment move{path_.position(end - 1), path_.position(end)};
-      replace(end, 0, move.at(random_.unit()) + step(), kLeastGainOfStop);
+      const Position aside = step();  // drawn first: operands have no order
+      replace(end, 0, move.at(random_.unit()) + aside, kLeastGainOfStop);
       return;
     }
     if (path_.stop_count() == 2) return;

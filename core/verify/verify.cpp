@@ -199,7 +199,7 @@ class PairCheck {
   }
 
   bool compare_margin() {
-    const LeftOut left_out = [this](std::size_t first, std::size_t second) {
+    const TimesLeftOut left_out = [this](std::size_t first, std::size_t second) {
       return times_left_out(first, second);
     };
     const auto overlaps = overlaps_within_margin(fleet_, rules_.interval_margin, rules_.inflation, left_out,

@@ -328,7 +328,7 @@ std::vector<TimeSpan> without(const TimeSpan& span, const std::vector<TimeSpan>&
 
 class MarginSweep {
  public:
-  MarginSweep(const ExecutedFleet& fleet, double margin, double inflation, const LeftOut& left_out,
+  MarginSweep(const ExecutedFleet& fleet, double margin, double inflation, const TimesLeftOut& left_out,
               std::size_t most, const StopCondition& stop)
       : fleet_(fleet),
         margin_(margin),
@@ -428,7 +428,7 @@ class MarginSweep {
   const ExecutedFleet& fleet_;
   double margin_;
   double inflation_;
-  const LeftOut& left_out_;
+  const TimesLeftOut& left_out_;
   std::size_t most_;
   const StopCondition& stop_;
   std::size_t steps_ = 0;
@@ -439,7 +439,8 @@ class MarginSweep {
 }  // namespace
 
 std::optional<std::vector<ShiftedOverlap>> overlaps_within_margin(const ExecutedFleet& fleet, double margin,
-                                                                  double inflation, const LeftOut& left_out,
+                                                                  double inflation,
+                                                                  const TimesLeftOut& left_out,
                                                                   std::size_t most,
                                                                   const StopCondition& stop) {
   if (margin <= 0.0) return std::vector<ShiftedOverlap>{};

@@ -84,14 +84,15 @@ struct ShiftedOverlap {
 };
 
 /// Returns the times of a pair that the margin leaves out: no time of either robot lies in one of them.
-using LeftOut = std::function<std::vector<TimeSpan>(std::size_t first, std::size_t second)>;
+using TimesLeftOut = std::function<std::vector<TimeSpan>(std::size_t first, std::size_t second)>;
 
 /// Returns the deepest overlap within the margin of each pair, in the order of the pairs, at most `most`.
 /// Times differ by `margin` or less. Left out are times at which both robots execute commitments or one of
 /// them stays at the end of its commitment before it first leaves. All radii are enlarged by `inflation` and
 /// the vicinity. Returns none if `stop` is met first.
 std::optional<std::vector<ShiftedOverlap>> overlaps_within_margin(const ExecutedFleet& fleet, double margin,
-                                                                  double inflation, const LeftOut& left_out,
+                                                                  double inflation,
+                                                                  const TimesLeftOut& left_out,
                                                                   std::size_t most,
                                                                   const StopCondition& stop);
 
