@@ -49,18 +49,18 @@ Plan without_moves(const Plan& plan, const Problem& problem, const StopCondition
 
 }  // namespace
 
-CheckedPlan check(const Plan& plan, const Problem& problem, const PlanOptions& options,
+CheckOfPlan check(const Plan& plan, const Problem& problem, const PlanOptions& options,
                   const StopCondition& stop, const std::function<auto()->StopCondition>& last) {
+  CheckOfPlan check;
   const bool any_moves = std::any_of(plan.plans.begin(), plan.plans.end(),
                                      [&](const RobotPlan& robot) { return moves(robot, problem); });
-  if (any_moves && plan.unavoidable_known) {
-    if (auto report = check_plan(problem, options, plan, stop)) return {plan, std::move(report)};
-  }
+  if (any_moves && plan.unavoidable_known) check.report = check_plan(problem, options, plan, stop);
+  if (check.report) return check;
   const StopCondition end = last();
-  const bool is_whole = !any_moves && plan.unavoidable_known;
-  CheckedPlan checked{is_whole ? plan : without_moves(plan, problem, end), std::nullopt};
-  if (checked.plan.unavoidable_known) checked.report = check_plan(problem, options, checked.plan, end);
-  return checked;
+  if (any_moves || !plan.unavoidable_known) check.instead = without_moves(plan, problem, end);
+  const Plan& left = check.checked(plan);
+  if (left.unavoidable_known) check.report = check_plan(problem, options, left, end);
+  return check;
 }
 
 }  // namespace fleetplan::core

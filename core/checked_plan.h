@@ -13,16 +13,19 @@
 
 namespace fleetplan::core {
 
-/// A plan and its check; none if that was not finished, so that the plan must not be used.
-struct CheckedPlan {
-  Plan plan;
+/// What the check says of a plan, or of the one that is used instead; no report if it was not finished, so
+/// that neither must be used.
+struct CheckOfPlan {
   std::optional<VerifyReport> report;
+  std::optional<Plan> instead;
+
+  const Plan& checked(const Plan& plan) const { return instead ? *instead : plan; }
 };
 
-/// Checks a plan of the planner until `stop` is met. If that does not suffice, the plan is one in which all
-/// robots that would move stay at their starts, or at the end of what is committed; `last`, which is asked
-/// then, ends its check.
-CheckedPlan check(const Plan& plan, const Problem& problem, const PlanOptions& options,
+/// Checks a plan of the planner until `stop` is met. If that does not suffice, another one is used instead,
+/// in which all robots that would move stay at their starts, or at the end of what is committed; `last`,
+/// which is asked then, ends its check.
+CheckOfPlan check(const Plan& plan, const Problem& problem, const PlanOptions& options,
                   const StopCondition& stop, const std::function<auto()->StopCondition>& last);
 
 }  // namespace fleetplan::core

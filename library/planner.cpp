@@ -96,7 +96,9 @@ Plan plan(const Problem& problem, const Options& options, const Control& control
     return stop.even_if_cancelled(control.stop.stop_requested() ? now + kPatience
                                                                 : std::max(stop.deadline(), now + kPatience));
   };
-  const auto [checked, report] = core::check(found, *made.problem, core_options, patience(), patience);
+  const core::CheckOfPlan check = core::check(found, *made.problem, core_options, patience(), patience);
+  const core::Plan& checked = check.checked(found);
+  const auto& report = check.report;
   Plan plan = library::plan_of(checked, problem);
   plan.objective_value = core::objective_value(checked, made.problem->robots(), core_options.objective);
   plan.search.seconds = seconds;

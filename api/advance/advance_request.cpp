@@ -242,18 +242,18 @@ std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, cons
 }
 
 core::Judgement judgement_of(AdvanceRequest& request, core::MapCache* maps, core::Work& work) {
-  core::Judgement judgement;
-  judgement.options = request.fleet.options.plan;
-  judgement.zones = request.fleet.zones;
-  judgement.reports_invalid = request.fleet.options.invalid_robots == InvalidRobots::report;
-  judgement.read_back = [&frame = request.fleet.map->frame](const core::Position& position) {
-    return core::Position(frame.to_world(position) - frame.origin);
-  };
-  judgement.map = [&grid = request.fleet.map->grid, maps, &work] {
-    return maps != nullptr ? maps->map_of(std::move(grid), work.reading())
-                           : core::static_map(std::move(grid), work.reading());
-  };
-  return judgement;
+  return {.options = request.fleet.options.plan,
+          .zones = request.fleet.zones,
+          .reports_invalid = request.fleet.options.invalid_robots == InvalidRobots::report,
+          .read_back =
+              [&frame = request.fleet.map->frame](const core::Position& position) {
+                return core::Position(frame.to_world(position) - frame.origin);
+              },
+          .map =
+              [&grid = request.fleet.map->grid, maps, &work] {
+                return maps != nullptr ? maps->map_of(std::move(grid), work.reading())
+                                       : core::static_map(std::move(grid), work.reading());
+              }};
 }
 
 namespace {

@@ -40,8 +40,8 @@ struct AdvanceRequest {
 std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, const Limits& limits,
                                                     core::Work& work);
 
-/// What the next request is judged by, with the map of the request, which is taken. `maps`: those of earlier
-/// requests; may be null.
+/// What the next request is judged by, as long as the request and `work` are there. Its map is taken if it is
+/// needed. `maps`: those of earlier requests; may be null.
 core::Judgement judgement_of(AdvanceRequest& request, core::MapCache* maps, core::Work& work);
 
 /// Returns the request of the moment: that of the body with the starts, goals, committed and previous actions

@@ -152,9 +152,11 @@ std::vector<std::string> stuck_warning(const core::Plan& plan, const std::vector
 Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std::string& request_id,
                   StageTimes stages, const core::StopCondition& stop, const AnsweredPlan& on_answer) {
   stages.planned = StageTimes::Clock::now();
-  const auto [answered, report] =
+  const core::CheckOfPlan check =
       core::check(plan, request.problem, request.options, check_stop(stop, request).despite_memory(),
                   [&] { return last_stop(stages, stop, request); });
+  const core::Plan& answered = check.checked(plan);
+  const auto& report = check.report;
   const PlanOutcome outcome =
       outcome_of(answered, std::chrono::duration<double>(stages.planned - stages.started).count());
   if (!report && stop.cancelled()) return problem_reply(ErrorCode::draining, kDrainingDetail, request_id);

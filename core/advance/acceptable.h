@@ -20,11 +20,11 @@
 
 namespace fleetplan::core {
 
-/// What the next request is judged by when it is planned.
+/// What the next request is judged by when it is planned. Refers to the request.
 struct Judgement {
-  PlanOptions options = {};
-  std::vector<Zone> zones = {};
-  bool reports_invalid = false;  // robots in walls are reported, the others are planned
+  const PlanOptions& options;
+  const std::vector<Zone>& zones;
+  bool reports_invalid;  // robots in walls are reported, the others are planned
   /// Positions as who plans them reads them: rounded in the frame of the client.
   std::function<Position(const Position&)> read_back;
   /// The map, if it is needed; null if there is no time or memory for it.

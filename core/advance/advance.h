@@ -50,7 +50,8 @@ void leave_out_unfit(std::vector<Robot>& next, const std::vector<Robot>& robots,
 /// It has no previous actions if it has no plan, is elsewhere than planned, or gets other goals.
 Robot advanced(const Robot& robot, const Execution& execution, const Moment& moment);
 
-/// Says of the committed and previous waits of the robots which goals they serve, see mark_services.
+/// Says of the committed and previous waits of the robots which goals they serve, as the function of
+/// core/model/itinerary.h does for one robot.
 void mark_services(std::vector<Robot>& next, Work& work);
 
 /// Returns by robot what one that drives at the moment cannot leave out, on the clock of the moment: its

@@ -25,26 +25,26 @@ TEST(CheckedPlan, IsTheWholePlanIfThereIsTime) {
   const Problem problem = crossing();
   const Plan plan = core::plan(problem, {}, never());
   ASSERT_TRUE(plan.unplanned.empty());
-  const CheckedPlan checked = check(plan, problem, {}, never(), never);
+  const CheckOfPlan checked = check(plan, problem, {}, never(), never);
   ASSERT_TRUE(checked.report);
   EXPECT_TRUE(checked.report->valid());
-  EXPECT_EQ(checked.plan.plans.size(), plan.plans.size());
-  EXPECT_EQ(checked.plan.objectives.flowtime, plan.objectives.flowtime);
+  EXPECT_EQ(&checked.checked(plan), &plan);
 }
 
 TEST(CheckedPlan, LetsRobotsStayIfTheirPlanCouldNotBeChecked) {
   const Problem problem = crossing();
   const Plan plan = core::plan(problem, {}, never());
   support::StepLimit limit(0);
-  const CheckedPlan checked = check(plan, problem, {}, support::counted(limit), never);
+  const CheckOfPlan checked = check(plan, problem, {}, support::counted(limit), never);
   ASSERT_TRUE(checked.report);
   EXPECT_TRUE(checked.report->valid());
-  EXPECT_FALSE(checked.plan.deterministic);
-  ASSERT_EQ(checked.plan.unplanned.size(), 2U);
-  EXPECT_EQ(checked.plan.unplanned[0].robot, 0U);
-  EXPECT_EQ(checked.plan.unplanned[1].robot, 1U);
-  EXPECT_EQ(checked.plan.unplanned[0].reason, Unplanned::Reason::budget_exhausted);
-  for (const RobotPlan& robot : checked.plan.plans) {
+  const Plan& left = checked.checked(plan);
+  EXPECT_FALSE(left.deterministic);
+  ASSERT_EQ(left.unplanned.size(), 2U);
+  EXPECT_EQ(left.unplanned[0].robot, 0U);
+  EXPECT_EQ(left.unplanned[1].robot, 1U);
+  EXPECT_EQ(left.unplanned[0].reason, Unplanned::Reason::budget_exhausted);
+  for (const RobotPlan& robot : left.plans) {
     EXPECT_EQ(robot.actions.size(), problem.robots()[robot.robot].committed.size());
   }
 }

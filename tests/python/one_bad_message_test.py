@@ -131,22 +131,29 @@ class Servers(unittest.TestCase):
             self.assertTrue(issubclass(InvalidValue, ValueError) and issubclass(InvalidValue, FleetplanError))
 
 
-class Damages:
-    """A client of which a share of the answers is damaged."""
+class Changes:
+    """A client whose answers are changed before they are returned."""
 
-    def __init__(self, client, dice, share):
-        self.client, self.dice, self.share, self.count = client, dice, share, 0
+    def __init__(self, client):
+        self.client = client
 
     def __getattr__(self, name):
         method = getattr(self.client, name)
+        return lambda *arguments, **members: self.changed(name, method(*arguments, **members))
 
-        def called(*arguments, **members):
-            answer = method(*arguments, **members)
-            if self.dice.random() >= self.share:
-                return answer
-            self.count += 1
-            return damaged(answer, self.dice) if self.dice.random() < 0.9 else {}
-        return called
+
+class Damages(Changes):
+    """A share of the answers is damaged."""
+
+    def __init__(self, client, dice, share):
+        super().__init__(client)
+        self.dice, self.share, self.count = dice, share, 0
+
+    def changed(self, _, answer):
+        if self.dice.random() >= self.share:
+            return answer
+        self.count += 1
+        return damaged(answer, self.dice) if self.dice.random() < 0.9 else {}
 
 
 class Loops(unittest.TestCase):
@@ -232,40 +239,33 @@ class Loops(unittest.TestCase):
         self.assertIsNone(day.loop.failure)
 
 
-class Spoils:
-    """A client of which one plan is wrong in a way that only the service sees."""
+class Spoils(Changes):
+    """One plan is wrong in a way that only the service sees."""
 
     def __init__(self, client, number, damage):
-        self.client, self.number, self.damage, self.count = client, number, damage, 0
+        super().__init__(client)
+        self.number, self.damage, self.count = number, damage, 0
 
-    def __getattr__(self, name):
-        return getattr(self.client, name)
-
-    def plan(self, request):
-        answer = self.client.plan(request)
-        self.count += 1
-        if self.count == self.number:
+    def changed(self, name, answer):
+        self.count += name == "plan"
+        if name == "plan" and self.count == self.number:
             for plan in answer["plans"]:
                 if len(plan["actions"]) == 1:
                     self.damage(plan["actions"])
         return answer
 
 
-class Loses:
-    """A client of which all answers of one kind are damaged while it is on."""
+class Loses(Changes):
+    """All answers of one kind are damaged while it is on."""
 
     def __init__(self, client, name, damage):
-        self.client, self.name, self.damage, self.is_on = client, name, damage, True
+        super().__init__(client)
+        self.name, self.damage, self.is_on = name, damage, False
 
-    def __getattr__(self, name):
-        method = getattr(self.client, name)
-
-        def called(*arguments, **members):
-            answer = method(*arguments, **members)
-            if self.is_on and name == self.name:
-                self.damage(answer)
-            return answer
-        return called
+    def changed(self, name, answer):
+        if self.is_on and name == self.name:
+            self.damage(answer)
+        return answer
 
 
 class Vehicles(unittest.TestCase):
@@ -340,7 +340,6 @@ class Vehicles(unittest.TestCase):
             for damage in damages:
                 client = Loses(self.client, name, damage)
                 day = vda5050_test.Day(client, 6)
-                client.is_on = False
                 day.run(6.0)
                 client.is_on = True
                 rounds, orders = day.loop.rounds, {vehicle.order_id for vehicle in day.vehicles.values()}
