@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/commitments/unavoidable_collisions.h"
+#include "core/model/itinerary.h"
 
 namespace fleetplan::core {
 
@@ -40,8 +41,8 @@ Plan without_moves(const Plan& plan, const Problem& problem, const StopCondition
   std::sort(left.unplanned.begin(), left.unplanned.end(),
             [](const Unplanned& a, const Unplanned& b) { return a.robot < b.robot; });
   // A robot that is at its goal, or has none, stays, too.
-  UnavoidableCollisions found =
-      unavoidable_collisions(problem, std::vector<bool>(problem.robots().size(), false), stop);
+  UnavoidableCollisions found = unavoidable_collisions(
+      problem, itineraries_of(problem.robots()), std::vector<bool>(problem.robots().size(), false), stop);
   left.unavoidable = std::move(found.collisions);
   left.unavoidable_known = found.finished;
   return left;

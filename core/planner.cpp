@@ -12,7 +12,7 @@
 
 #include "core/bounds/taut_path_bounds.h"
 #include "core/commitments/unavoidable_collisions.h"
-#include "core/instance/instance.h"
+#include "core/compile/instance.h"
 #include "core/lns/large_neighbourhood_search.h"
 #include "core/lns/smoothing.h"
 #include "core/prioritized/collect_plan.h"
@@ -54,8 +54,9 @@ std::vector<std::size_t> robots_to_plan(const FleetReservations& reservations,
                                         const std::vector<std::optional<Unplanned>>& unplanned) {
   std::vector<std::size_t> movers;
   for (std::size_t i = 0; i < reservations.instance().size(); ++i) {
-    const Robot& robot = reservations.instance().robot(i);
-    if (robot.goal && !unplanned[i] && !(robot.is_idle() && reservations.stays(i))) movers.push_back(i);
+    const Itinerary& itinerary = reservations.instance().itinerary(i);
+    const bool need_not_move = itinerary.is_parked() || (itinerary.is_idle && reservations.stays(i));
+    if (!need_not_move && !unplanned[i]) movers.push_back(i);
   }
   return movers;
 }
@@ -194,7 +195,7 @@ bool undo_vain_moves(PlanState& state, const StopCondition& stop) {
       is_any_undone = undo_vain_move(state, robot, expansions_left[robot], stop) || is_any_undone;
     }
     std::erase_if(robots, [&](std::size_t robot) {
-      const bool may_gain = expansions_left[robot] > 0 || state.instance().robot(robot).is_idle();
+      const bool may_gain = expansions_left[robot] > 0 || state.instance().itinerary(robot).is_idle;
       return !makes_way(reservations, robot) || !may_gain;
     });
   }
@@ -209,7 +210,8 @@ UnavoidableCollisions find_unavoidable(const FleetReservations& reservations,
   const Instance& instance = reservations.instance();
   std::vector<bool> planned(instance.size(), false);
   for (std::size_t i = 0; i < instance.size(); ++i) planned[i] = reservations.trajectory(i).has_value();
-  UnavoidableCollisions found = unavoidable_collisions(instance.problem(), planned, stop);
+  UnavoidableCollisions found =
+      unavoidable_collisions(instance.problem(), instance.itineraries(), planned, stop);
   std::vector<std::vector<std::size_t>> others(found.while_staying.size());
   for (const UnavoidableCollision& collision : found.collisions) {
     if (collision.other) others[collision.robot].push_back(*collision.other);
@@ -291,7 +293,7 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
   std::vector<std::size_t> movers = robots_to_plan(state.reservations(), unplanned);
   PrioritizedResult prioritized = first_plan(state, previous, movers, random, stop, progress);
   for (Unplanned& robot : prioritized.unplanned) {
-    if (!instance.robot(robot.robot).is_idle()) unplanned[robot.robot] = std::move(robot);
+    if (!instance.itinerary(robot.robot).is_idle) unplanned[robot.robot] = std::move(robot);
   }
   std::erase_if(movers, [&](std::size_t robot) { return !state.reservations().trajectory(robot); });
   bool cut_off = undo_vain_moves(state, stop);

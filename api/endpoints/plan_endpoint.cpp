@@ -16,7 +16,7 @@
 #include "api/response/reply.h"
 #include "api/response/write_response.h"
 #include "core/checked_plan.h"
-#include "core/instance/instance.h"
+#include "core/compile/instance.h"
 #include "core/model/objective_share.h"
 #include "core/model/plan.h"
 #include "core/prioritized/narrow_places.h"

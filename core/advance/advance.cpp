@@ -411,7 +411,7 @@ Advanced advanced_with_course(const Robot& robot, const Execution& execution, co
   }
   end_before_unfit_load(next);
   const bool counts_age = moment.has_horizon && next.goal && !execution.goals;
-  next.goal_age = counts_age && !has_arrived(next) ? left.age : 0.0;
+  next.goal_age = counts_age && !has_arrived(itinerary_of(next)) ? left.age : 0.0;
   next.previous.reset();
   const bool goes_on = execution.planned && !located.is_elsewhere && !execution.goals;
   if (goes_on) {

@@ -19,7 +19,8 @@ constexpr double kNearer = 1e-9;
 std::vector<Piece> committed_pieces(const Robot& robot) {
   std::vector<RadiusStep> steps;
   if (changes_radius(robot)) {
-    steps = radius_steps(robot, itinerary_of(robot).visited);
+    const Itinerary itinerary = itinerary_of(robot);
+    steps = radius_steps(itinerary, itinerary.visited);
   }
   std::vector<Piece> pieces;
   double radius = robot.radius;

@@ -12,25 +12,25 @@
 
 namespace fleetplan::core {
 
-double straight_cost(const Pose& from, const Goal& goal, const Motion& motion) {
-  return straight_cost(GoalLeg{from.position, from.theta, goal}, motion);
+double straight_cost(const Pose& from, const Goal& goal, const Body& body) {
+  return straight_cost(GoalLeg{from.position, from.theta, goal}, body);
 }
 
-double straight_cost(const GoalLeg& leg, const Motion& motion) {
+double straight_cost(const GoalLeg& leg, const Body& body) {
   const auto rotation = [&](const std::optional<double>& from, const std::optional<double>& to) {
-    return from && to ? motion.rotation_time(*from, *to) : 0.0;
+    return from && to ? body.rotation_time(*from, *to) : 0.0;
   };
   const Position d = leg.to.position - leg.from;
   const double distance = d.norm();
   if (distance <= kSamePosition) return rotation(leg.heading, leg.to.theta);
   const double heading = heading_of(d);
-  if (motion.may_reverse) return reverse_bound(distance, heading, leg.heading, leg.to.theta, motion);
-  return rotation(leg.heading, heading) + motion.translation_time(distance) + rotation(heading, leg.to.theta);
+  if (body.may_reverse) return reverse_bound(distance, heading, leg.heading, leg.to.theta, body);
+  return rotation(leg.heading, heading) + body.translation_time(distance) + rotation(heading, leg.to.theta);
 }
 
-double lower_bound(const GoalLeg& leg, const Motion& motion) {
+double lower_bound(const GoalLeg& leg, const Body& body) {
   const bool stays = is_same_position(leg.from, leg.to.position);
-  return straight_cost(leg, motion) + (stays ? 0.0 : motion.wait_before_move);
+  return straight_cost(leg, body) + (stays ? 0.0 : body.wait_before_move);
 }
 
 std::vector<GoalLeg> legs_of(const Itinerary& itinerary) {
@@ -57,13 +57,10 @@ double end_after(const Itinerary& itinerary, const std::vector<double>& seconds)
   return t;
 }
 
-double lower_bound(const Robot& robot, const PlanOptions& options) {
-  const Itinerary itinerary = itinerary_of(robot);
-  const std::vector<Load> loads = loads_of(robot);
+double lower_bound(const Itinerary& itinerary, const std::vector<Body>& bodies) {
   std::vector<double> seconds;
   for (const GoalLeg& leg : legs_of(itinerary)) {
-    const Load& load = loads[itinerary.first_goal + seconds.size()];
-    seconds.push_back(lower_bound(leg, motion_of(robot, options, load)));
+    seconds.push_back(lower_bound(leg, bodies[seconds.size()]));
   }
   return end_after(itinerary, seconds);
 }
@@ -116,16 +113,16 @@ class Turns {
 }  // namespace
 
 double reverse_bound(double distance, double direction, std::optional<double> from_heading,
-                     std::optional<double> to_heading, const Motion& motion) {
+                     std::optional<double> to_heading, const Body& body) {
   // A longer way loses no less by inertia.
-  const double straight = motion.cruise_time(distance);
-  const double loss = motion.linear_inertia.loss(distance, motion.linear_speed);
+  const double straight = body.cruise_time(distance);
+  const double loss = body.linear_inertia.loss(distance, body.linear_speed);
   const double least_turn = from_heading && to_heading ? angle_between(*from_heading, *to_heading) : 0.0;
   double least = std::numeric_limits<double>::infinity();
   for (const double end : {direction, opposite_heading(direction)}) {
     const double from = from_heading ? angle_between(*from_heading, end) : 0.0;
     const double to = to_heading ? angle_between(*to_heading, end) : 0.0;
-    least = std::min(least, Turns(from, to, least_turn, straight, motion.angular_speed).least_cost());
+    least = std::min(least, Turns(from, to, least_turn, straight, body.angular_speed).least_cost());
   }
   return least + loss;
 }

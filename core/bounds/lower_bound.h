@@ -6,10 +6,9 @@
 #include <vector>
 
 #include "core/geometry/position.h"
+#include "core/model/body.h"
 #include "core/model/itinerary.h"
-#include "core/model/motion.h"
 #include "core/model/plan_options.h"
-#include "core/model/robot.h"
 
 namespace fleetplan::core {
 
@@ -17,7 +16,7 @@ namespace fleetplan::core {
 /// direction and from there to the goal heading. The wait before moves is not included. No path costs less;
 /// docs/proofs.md, Lemma 1, proves it. For a robot that may reverse: a lower bound of the cost of all paths,
 /// also of those that go forwards and backwards beside the line (see reverse_bound).
-double straight_cost(const Pose& from, const Goal& goal, const Motion& motion);
+double straight_cost(const Pose& from, const Goal& goal, const Body& body);
 
 /// The way to a goal from the one before, or from where the robot's plan begins.
 struct GoalLeg {
@@ -30,22 +29,22 @@ struct GoalLeg {
 std::vector<GoalLeg> legs_of(const Itinerary& itinerary);
 
 /// The straight cost of a leg, with any initial heading if it has none.
-double straight_cost(const GoalLeg& leg, const Motion& motion);
+double straight_cost(const GoalLeg& leg, const Body& body);
 /// A lower bound of the duration of a leg, seconds, obstacles ignored: the straight cost and one wait before
 /// a move. Exact where the goal is in sight; elsewhere TautPathSearch is tighter.
-double lower_bound(const GoalLeg& leg, const Motion& motion);
+double lower_bound(const GoalLeg& leg, const Body& body);
 
 /// When a robot ends its last service if each leg takes so many seconds.
 double end_after(const Itinerary& itinerary, const std::vector<double>& seconds);
 
-/// A lower bound of the cost of a robot with a goal, seconds, obstacles ignored.
-double lower_bound(const Robot& robot, const PlanOptions& options);
+/// A lower bound of the cost of a robot with a goal, seconds, obstacles ignored. `bodies`: on each leg.
+double lower_bound(const Itinerary& itinerary, const std::vector<Body>& bodies);
 
 /// A lower bound of the cost of a robot that may reverse and gets `distance` metres (> 0) in a direction,
 /// from one heading to another one (none: any), seconds. Obstacles and waits are left out. The robot need not
 /// turn into the direction: it may go forwards and backwards beside it, on a longer way. docs/proofs.md,
 /// Lemma 4.
 double reverse_bound(double distance, double direction, std::optional<double> from_heading,
-                     std::optional<double> to_heading, const Motion& motion);
+                     std::optional<double> to_heading, const Body& body);
 
 }  // namespace fleetplan::core

@@ -7,7 +7,7 @@
 #include <new>
 #include <span>
 
-#include "core/instance/instance.h"
+#include "core/compile/instance.h"
 
 namespace fleetplan::core {
 namespace {
@@ -21,19 +21,19 @@ constexpr int kExpansionStride = 16;
 
 }  // namespace
 
-TautPathResult TautPathSearch::run(const GoalLeg& leg, const Motion& motion, double known_cost,
+TautPathResult TautPathSearch::run(const GoalLeg& leg, const Body& body, double known_cost,
                                    std::int64_t max_work, const StopCondition& stop) {
   leg_ = &leg;
   // The search is for a robot that starts and stops at once. The way is at least as long as the straight
   // line, so inertia adds at least what it adds there.
-  const double loss = motion.linear_inertia.loss((leg.to.position - leg.from).norm(), motion.linear_speed);
-  motion_ = motion;
-  motion_.linear_inertia = {};
-  bend_time_ = motion.cruise_time(graph_.radius()) + 1.0 / motion.angular_speed;
+  const double loss = body.linear_inertia.loss((leg.to.position - leg.from).norm(), body.linear_speed);
+  body_ = body;
+  body_.linear_inertia = {};
+  bend_time_ = body.cruise_time(graph_.radius()) + 1.0 / body.angular_speed;
   limit_ = known_cost * (1.0 + kCostRounding) + kCostRounding - loss;
   const std::int64_t last_work = work() + max_work;
   reset();
-  const double straight = lower_bound(leg, motion);
+  const double straight = lower_bound(leg, body);
   for (const int corner : corners_.visible_from(leg.to.position)) {
     goal_visible_[corner] = 1;
   }
@@ -78,9 +78,9 @@ void TautPathSearch::expand_start() {
       const auto tangent = graph_.from_point(leg_->from, bend);
       if (!tangent) continue;
       ++steps_;
-      const double rotation = leg_->heading ? motion_.rotation_time(*leg_->heading, tangent->heading) : 0.0;
+      const double rotation = leg_->heading ? body_.rotation_time(*leg_->heading, tangent->heading) : 0.0;
       const double seconds =
-          rotation + motion_.translation_time(tangent->length) + 2.0 * motion_.wait_before_move;
+          rotation + body_.translation_time(tangent->length) + 2.0 * body_.wait_before_move;
       const Arrival arrival{seconds, tangent->arrive_angle, bend, from_start_.next_index(), -1, false};
       if (push(arrival, *tangent)) from_start_.push_back(*tangent);
     }
@@ -107,7 +107,7 @@ void TautPathSearch::expand_tangents(const Arrival& arrival) {
     if (tangent.leave_angle < arrival.angle - kSameAngle) break;  // the others leave before the arrival
     ++steps_;
     double seconds = seconds_after(arrival, tangent);
-    if (tangent.to.left != arrival.bend.left) seconds += motion_.wait_before_move;
+    if (tangent.to.left != arrival.bend.left) seconds += body_.wait_before_move;
     if (exceeds_limit(seconds, tangent.end) || is_dominated(tangent.to, tangent.arrive_angle, seconds, -1))
       continue;
     if (!graph_.is_arc_free(arrival.bend, arrival.angle, tangent.leave_angle)) continue;
@@ -131,19 +131,19 @@ void TautPathSearch::expand_goal(const Arrival& arrival) {
 /// The time at the end of the tangent, after the arc to its beginning.
 double TautPathSearch::seconds_after(const Arrival& arrival, const Tangent& tangent) const {
   const double turn = std::max(0.0, tangent.leave_angle - arrival.angle);
-  return arrival.seconds + turn * bend_time_ + motion_.translation_time(tangent.length);
+  return arrival.seconds + turn * bend_time_ + body_.translation_time(tangent.length);
 }
 
 /// Whether the goal cannot be reached from `end` within the limit, turns ignored.
 bool TautPathSearch::exceeds_limit(double seconds, const Position& end) const {
-  const double left = (limit_ - seconds) * motion_.linear_speed;
+  const double left = (limit_ - seconds) * body_.linear_speed;
   return left < 0.0 || (leg_->to.position - end).squaredNorm() > left * left;
 }
 
 /// Puts an arrival on the open list and returns true, unless the goal cannot be reached within the limit,
 /// turns included.
 bool TautPathSearch::push(const Arrival& arrival, const Tangent& by) {
-  const double f = arrival.seconds + straight_cost({by.end, by.heading}, leg_->to, motion_);
+  const double f = arrival.seconds + straight_cost({by.end, by.heading}, leg_->to, body_);
   if (f > limit_) return false;
   open_.push_back({f, arrivals_.push_back(arrival)});
   std::push_heap(open_.begin(), open_.end(), std::greater<>());
@@ -180,7 +180,7 @@ constexpr std::int64_t kLegsBetweenPolls = 64;
 
 /// Whether the robot's disk is clear of obstacles at both ends of a leg. Elsewhere it always is.
 bool fits_at_ends(const Instance& instance, std::size_t robot, std::size_t leg) {
-  const double radius = instance.stages(robot)[leg].motion.wall_radius;
+  const double radius = instance.views(robot)[leg].body.wall_radius;
   const std::vector<Goal>& goals = instance.itinerary(robot).goals;
   const auto fits_at = [&](const Goal& goal) {
     return radius_at_goal(instance, robot, goal.position, leg) == radius;
@@ -192,12 +192,12 @@ bool fits_at_ends(const Instance& instance, std::size_t robot, std::size_t leg) 
 /// The motion whose cost the taut path of a robot that may reverse bounds. Such a robot need not turn as much
 /// as a taut path does: only the length and waits of the path, and the difference of the headings at its
 /// ends, bound its cost.
-Motion without_turns_if_reversing(Motion motion) {
-  if (!motion.may_reverse) return motion;
-  motion.angular_speed = std::numeric_limits<double>::infinity();
-  motion.angular_inertia = {};
-  motion.may_reverse = false;
-  return motion;
+Body without_turns_if_reversing(Body body) {
+  if (!body.may_reverse) return body;
+  body.angular_speed = std::numeric_limits<double>::infinity();
+  body.angular_inertia = {};
+  body.may_reverse = false;
+  return body;
 }
 
 bool is_straight(const Instance& instance, const GoalLeg& leg, double radius) {
@@ -220,7 +220,7 @@ struct TautPathBounds::Way {
 
   Way(const Instance& instance, std::size_t robot) : legs(legs_of(instance.itinerary(robot))) {
     for (const GoalLeg& leg : legs) {
-      seconds.push_back(lower_bound(leg, instance.stages(robot)[seconds.size()].motion));
+      seconds.push_back(lower_bound(leg, instance.views(robot)[seconds.size()].body));
     }
   }
   /// The most seconds that the leg takes in the cheapest plan, if there is a plan of this cost.
@@ -253,7 +253,7 @@ void TautPathBounds::bound(const Instance& instance, const std::vector<std::size
     seconds_[robot] = end_after(instance.itinerary(robot), way.seconds);
     for (std::size_t leg = 0; leg < way.legs.size() && !cut_off_; ++leg) {
       if (++tested % kLegsBetweenPolls == 0) cut_off_ = stop.met();
-      const double radius = instance.stages(robot)[leg].motion.wall_radius;
+      const double radius = instance.views(robot)[leg].body.wall_radius;
       const double reduced = radius - 2.0 * TangentGraph::kRadiusReduction;
       if (reduced <= 0.0) continue;
       if (is_straight(instance, way.legs[leg], reduced) || !fits_at_ends(instance, robot, leg)) continue;
@@ -290,11 +290,11 @@ void TautPathBounds::improve(const Instance& instance, const LegsByRadius& out_o
       const double most = way.most_seconds(itinerary, index.leg, costs[index.robot]);
       const std::int64_t before = search.work();
       const GoalLeg& leg = way.legs[index.leg];
-      const Motion motion = without_turns_if_reversing(instance.stages(index.robot)[index.leg].motion);
-      const TautPathResult result = search.run(leg, motion, most, work / kWorkDivisor, stop);
+      const Body body = without_turns_if_reversing(instance.views(index.robot)[index.leg].body);
+      const TautPathResult result = search.run(leg, body, most, work / kWorkDivisor, stop);
       work -= search.work() - before;
-      const double turn = instance.motion(index.robot).may_reverse && leg.heading && leg.to.theta
-                              ? instance.motion(index.robot).rotation_time(*leg.heading, *leg.to.theta)
+      const double turn = instance.body(index.robot).may_reverse && leg.heading && leg.to.theta
+                              ? instance.body(index.robot).rotation_time(*leg.heading, *leg.to.theta)
                               : 0.0;
       // The bound without obstacles holds as well.
       way.seconds[index.leg] = std::max(way.seconds[index.leg], result.seconds + turn);

@@ -44,7 +44,7 @@ class TautPathSearch {
   /// radius and speeds. Paths that cost more than `known_cost`, the cost of a known path in seconds (infinite
   /// for none), are not explored. After `max_work`, or when `stop` is met, returns the bound that is proved
   /// by then.
-  TautPathResult run(const GoalLeg& leg, const Motion& motion, double known_cost, std::int64_t max_work,
+  TautPathResult run(const GoalLeg& leg, const Body& body, double known_cost, std::int64_t max_work,
                      const StopCondition& stop);
 
   /// The work done so far by this search and by `corners`, in steps of 10 to 20 ns.
@@ -84,7 +84,7 @@ class TautPathSearch {
 
   // The members below belong to the current search. They are members so that their memory is used again.
   const GoalLeg* leg_ = nullptr;
-  Motion motion_;                     // without inertia of translations
+  Body body_;                         // without inertia of translations
   double bend_time_ = 0.0;            // seconds for a radian of an arc
   double limit_ = 0.0;                // seconds; paths that cost more are not explored
   IndexedVector<char> goal_visible_;  // by corner

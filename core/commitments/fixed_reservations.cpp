@@ -46,7 +46,7 @@ class FixedReservations::Collector {
          obstacle.after == MovingObstacle::After::stays ? kForever : last.t + kInstant);
   }
 
-  void add_robot(const Robot& robot, std::uint32_t index, const Contacts* contacts) {
+  void add_robot(const Committed& robot, std::uint32_t index, const Contacts* contacts) {
     bool from_start = true;
     for (const SizedSegment& segment : robot.committed) {
       from_start = from_start && segment.radius == robot.radius_at_start &&
@@ -65,12 +65,12 @@ class FixedReservations::Collector {
   std::vector<MotionTree::Disk> disks_;
 };
 
-FixedReservations::FixedReservations(double width, double height, std::vector<Robot> robots,
+FixedReservations::FixedReservations(double width, double height, std::vector<Committed> robots,
                                      const std::vector<MovingObstacle>& obstacles, const Contacts* contacts,
                                      const StopCondition& stop)
     : robots_(std::move(robots)) {
   double largest = 0.0;
-  for (const Robot& robot : robots_) {
+  for (const Committed& robot : robots_) {
     largest = std::max(largest, robot.disk.pair_radius);
     if (!robot.committed.empty()) empty_ = false;
     has_ramps_ = has_ramps_ || std::any_of(robot.committed.begin(), robot.committed.end(),

@@ -16,7 +16,7 @@ namespace fleetplan::core {
 class FixedReservations {
  public:
   /// A robot's committed motion, and where it begins what is planned for it.
-  struct Robot {
+  struct Committed {
     LargestDisk disk;
     Position start{0.0, 0.0};              // at t = 0
     Position committed_end{0.0, 0.0};      // where the committed motion ends; the start without any
@@ -39,7 +39,7 @@ class FixedReservations {
   FixedReservations() = default;
   /// The map is [0, width] x [0, height] metres. Null `contacts`: no two robots are in contact. If the stop
   /// condition is met first, or memory is spent, the reservations are not known, see below.
-  FixedReservations(double width, double height, std::vector<Robot> robots,
+  FixedReservations(double width, double height, std::vector<Committed> robots,
                     const std::vector<MovingObstacle>& obstacles, const Contacts* contacts,
                     const StopCondition& stop);
 
@@ -50,7 +50,7 @@ class FixedReservations {
   std::size_t count() const { return owners_.size(); }
   /// Whether committed motion changes its speed.
   bool has_ramps() const { return has_ramps_; }
-  const Robot& robot(std::size_t index) const { return robots_[index]; }
+  const Committed& robot(std::size_t index) const { return robots_[index]; }
   /// Whether the robot stands at the place where its committed motion ends, or moves from there.
   bool begins_at_commitment_end(std::size_t robot, const Position& from) const;
 
@@ -88,7 +88,7 @@ class FixedReservations {
             .pair_radius = tree_[index].radius};
   }
 
-  std::vector<Robot> robots_;
+  std::vector<Committed> robots_;
   MotionTree tree_;
   std::vector<Owner> owners_;  // of the disks of the tree
   bool empty_ = true;

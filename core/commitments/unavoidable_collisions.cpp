@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <tuple>
 #include <utility>
 
 #include "core/geometry/disk_motion.h"
 #include "core/geometry/motion_tree.h"
 #include "core/geometry/tolerance.h"
-#include "core/model/itinerary.h"
-#include "core/model/loads.h"
 
 namespace fleetplan::core {
 namespace {
@@ -128,8 +127,13 @@ class Overlaps {
 /// are left out, so crowds take little time.
 class CollisionSearch {
  public:
-  CollisionSearch(const Problem& problem, const std::vector<bool>& planned, const StopCondition& stop)
-      : problem_(problem), planned_(planned), stop_(stop), overlaps_(problem.robots().size()) {
+  CollisionSearch(const Problem& problem, std::span<const Itinerary> itineraries,
+                  const std::vector<bool>& planned, const StopCondition& stop)
+      : problem_(problem),
+        itineraries_(itineraries),
+        planned_(planned),
+        stop_(stop),
+        overlaps_(itineraries.size()) {
     add_robots();
     for (std::size_t i = 0; i < problem.obstacles().size(); ++i) {
       const MovingObstacle& obstacle = problem.obstacles()[i];
@@ -162,19 +166,18 @@ class CollisionSearch {
 
  private:
   void add_robots() {
-    const auto& robots = problem_.robots();
     // Bounded: the committed actions, each once.
-    for (std::size_t i = 0; i < robots.size(); ++i) {
-      const Itinerary itinerary = itinerary_of(robots[i]);
+    for (std::size_t i = 0; i < itineraries_.size(); ++i) {
+      const Itinerary& itinerary = itineraries_[i];
       const Position& place = itinerary.pose.position;
-      Passer passer{false, i, largest_radius(robots[i])};
-      const bool changes = changes_radius(robots[i]);
-      for (const SizedSegment& segment : certain_segments(robots[i], itinerary)) {
+      Passer passer{false, i, itinerary.largest_radius()};
+      const bool changes = !itinerary.radius_after.empty();
+      for (const SizedSegment& segment : certain_segments(itinerary)) {
         passer.pieces.emplace_back(segment);
         if (changes) passer.radii.push_back(segment.radius);
         certain_.push_back({i, false, passer.pieces.back(), segment.radius});
       }
-      const double at_end = changes ? radii_of(robots[i])[itinerary.first_goal] : robots[i].radius;
+      const double at_end = itinerary.radius_after_goals(itinerary.first_goal);
       if (!planned_[i])
         certain_.push_back({i, true, MovingDisk({{place, place}, itinerary.t_begin, kForever}), at_end});
       if (!passer.pieces.empty()) passers_.push_back(std::move(passer));
@@ -260,6 +263,7 @@ class CollisionSearch {
   }
 
   const Problem& problem_;
+  std::span<const Itinerary> itineraries_;  // by robot
   const std::vector<bool>& planned_;
   const StopCondition& stop_;
   std::vector<Passer> passers_;
@@ -270,13 +274,13 @@ class CollisionSearch {
 
 }  // namespace
 
-UnavoidableCollisions unavoidable_collisions(const Problem& problem, const std::vector<bool>& planned,
-                                             const StopCondition& stop) {
+UnavoidableCollisions unavoidable_collisions(const Problem& problem, std::span<const Itinerary> itineraries,
+                                             const std::vector<bool>& planned, const StopCondition& stop) {
   const bool any_committed =
-      std::any_of(problem.robots().begin(), problem.robots().end(),
-                  [](const Robot& robot) { return !robot.committed.empty() && !robot.invalid; });
+      std::any_of(itineraries.begin(), itineraries.end(),
+                  [](const Itinerary& itinerary) { return itinerary.is_committed && !itinerary.is_invalid; });
   if (problem.obstacles().empty() && !any_committed) return {};
-  UnavoidableCollisions result = CollisionSearch(problem, planned, stop).run();
+  UnavoidableCollisions result = CollisionSearch(problem, itineraries, planned, stop).run();
   if (result.collisions.empty()) result.while_staying.clear();
   return result;
 }

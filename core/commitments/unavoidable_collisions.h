@@ -1,7 +1,9 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
+#include "core/model/itinerary.h"
 #include "core/model/plan.h"
 #include "core/model/problem.h"
 #include "core/runtime/stop_condition.h"
@@ -20,8 +22,9 @@ struct UnavoidableCollisions {
 
 /// Certain are moving obstacles, the committed motion of robots, and the stay of robots that are not
 /// `planned` (by robot) at their committed end. Committed motion against committed motion is left out, as it
-/// is clear in a valid problem. The effort is nearly linear in the request.
-UnavoidableCollisions unavoidable_collisions(const Problem& problem, const std::vector<bool>& planned,
-                                             const StopCondition& stop);
+/// is clear in a valid problem. `itineraries` are those of the problem's robots. The effort is nearly linear
+/// in the request.
+UnavoidableCollisions unavoidable_collisions(const Problem& problem, std::span<const Itinerary> itineraries,
+                                             const std::vector<bool>& planned, const StopCondition& stop);
 
 }  // namespace fleetplan::core

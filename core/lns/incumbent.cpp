@@ -24,15 +24,15 @@ Incumbent::Incumbent(const PlanState& state, std::vector<std::size_t> planned)
 }
 
 double Incumbent::share_of(std::size_t robot) const {
-  return core::share_of(instance_.robot(robot), instance_.options().objective, trajectories_[robot]);
+  return core::share_of(instance_.itinerary(robot), instance_.options().objective, trajectories_[robot]);
 }
 
 double Incumbent::least_share(std::size_t robot, double cost) const {
-  return core::least_share(instance_.robot(robot), instance_.options().objective, cost);
+  return core::least_share(instance_.itinerary(robot), instance_.options().objective, cost);
 }
 
 double Incumbent::cost_with_share(std::size_t robot, double share) const {
-  return core::cost_with_share(instance_.robot(robot), instance_.options().objective, share);
+  return core::cost_with_share(instance_.itinerary(robot), instance_.options().objective, share);
 }
 
 std::size_t Incumbent::last_to_arrive() const {
@@ -141,8 +141,8 @@ bool WorkspacePool::may_add_moves() const {
   // Bounded: the goals of a request, once.
   for (std::size_t robot = 0; robot < instance_.size(); ++robot) {
     const std::size_t goals = instance_.itinerary(robot).goals.size();
-    for (std::size_t stage = 0; stage <= (instance_.stages(robot).changes_load() ? goals : 0); ++stage) {
-      if (instance_.stages(robot)[stage].free_space->finer().count() > 0) return false;
+    for (std::size_t stage = 0; stage <= (instance_.views(robot).change() ? goals : 0); ++stage) {
+      if (instance_.views(robot)[stage].free_space->finer().count() > 0) return false;
     }
   }
   return true;

@@ -9,7 +9,7 @@
 #include <mutex>
 #include <vector>
 
-#include "core/instance/instance.h"
+#include "core/compile/instance.h"
 #include "core/lns/neighbourhood.h"
 #include "core/lns/smoothing.h"
 #include "core/model/plan_options.h"

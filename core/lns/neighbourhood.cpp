@@ -97,7 +97,7 @@ std::vector<double> NeighbourhoodSelection::distances_at(double time, std::size_
   std::vector<double> distances;
   for (const std::size_t robot : planned_) {
     const double distance = (position_at(*state_.reservations().trajectory(robot), time) - center).norm();
-    distances.push_back(distance - state_.instance().motion(robot).pair_radius);
+    distances.push_back(distance - state_.instance().body(robot).pair_radius);
   }
   return distances;
 }
@@ -159,11 +159,11 @@ class NeighbourhoodPlanning {
 
  private:
   double share(std::size_t robot, const Trajectory& trajectory) const {
-    return share_of(instance_.robot(robot), objective_, trajectory);
+    return share_of(instance_.itinerary(robot), objective_, trajectory);
   }
   double share(std::size_t robot) const { return share(robot, *state_.reservations().trajectory(robot)); }
   double least_share(std::size_t robot) const {
-    return core::least_share(instance_.robot(robot), objective_, bounds_[robot]);
+    return core::least_share(instance_.itinerary(robot), objective_, bounds_[robot]);
   }
 
   bool plan_queue() {
@@ -247,7 +247,7 @@ class NeighbourhoodPlanning {
       }
       most = now + change_.gain + possible_gain + options_.most_loss - kLeastGain;
     }
-    return cost_with_share(instance_.robot(robot), objective_, most);
+    return cost_with_share(instance_.itinerary(robot), objective_, most);
   }
 
   void enqueue_conflicting(std::size_t robot, const Trajectory& trajectory) {

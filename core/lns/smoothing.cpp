@@ -32,7 +32,7 @@ class Smoothing {
  public:
   Smoothing(const Instance& instance, const ReservationTable& table, std::size_t robot, Random& random,
             const StopCondition& stop)
-      : robot_(instance.robot(robot)),
+      : itinerary_(instance.itinerary(robot)),
         objective_(instance.options().objective),
         longest_step_(kLongestStep * instance.lattice(robot).spacing()),
         path_(instance, table, robot, stop),
@@ -59,11 +59,11 @@ class Smoothing {
     }
   }
 
-  double share(const Trajectory& trajectory) const { return share_of(robot_, objective_, trajectory); }
+  double share(const Trajectory& trajectory) const { return share_of(itinerary_, objective_, trajectory); }
   /// By how much the share falls at least if the path costs so many seconds less.
   double share_of_seconds(double gain) const {
     const double cost = trajectory().cost;
-    return least_share(robot_, objective_, cost) - least_share(robot_, objective_, cost - gain);
+    return least_share(itinerary_, objective_, cost) - least_share(itinerary_, objective_, cost - gain);
   }
   const Trajectory& trajectory() const { return path_.trajectory(); }
   std::int64_t timed() const { return path_.timed(); }
@@ -77,11 +77,11 @@ class Smoothing {
 
   void replace(std::size_t stop, std::size_t count, const std::optional<Position>& by, double gain) {
     const double most = share(trajectory()) - share_of_seconds(gain);
-    path_.replace(stop, count, by, cost_with_share(robot_, objective_, most),
+    path_.replace(stop, count, by, cost_with_share(itinerary_, objective_, most),
                   [&](const Trajectory& tried) { return share(tried) < most; });
   }
 
-  const Robot& robot_;
+  const Itinerary& itinerary_;
   const PlanOptions::Objective objective_;
   const double longest_step_;  // metres
   TimedPath path_;

@@ -1,139 +1,16 @@
 #include "core/model/itinerary.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 
 #include "core/geometry/position.h"
-#include "core/geometry/segment.h"
-#include "core/geometry/tolerance.h"
 
 namespace fleetplan::core {
-
-bool is_in_pose(const Pose& pose, const Goal& goal) {
-  if (goal.anywhere) return true;
-  return (pose.position - goal.position).norm() <= kContactTolerance &&
-         (!goal.theta || angle_between(pose.theta, *goal.theta) <= kContactTolerance);
-}
-
-bool has_arrived(const Robot& robot) {
-  return robot.via.empty() && robot.goal->service == 0.0 && is_in_pose(robot.committed_end(), *robot.goal);
-}
-
-GoalsOnTheWay::GoalsOnTheWay(const Robot& robot) : robot_(robot) { rest(robot.start); }
-
-void GoalsOnTheWay::execute(const Action& action) {
-  if (action.type != Action::Type::wait) arrived_ = action.t_end;
-  now_ = action.t_end;
-  rest(action.to);
-}
-
-/// Serves the goals in this pose, in which the robot is at rest from `arrived_` to `now_`.
-void GoalsOnTheWay::rest(const Pose& pose) {
-  service_done_ = 0.0;
-  for (; count() < robot_.goal_count() && is_in_pose(pose, robot_.goal_at(count()));) {
-    const Goal& goal = robot_.goal_at(count());
-    const double begin = std::max(arrived_, goal.not_before);
-    service_done_ = std::clamp(now_ - begin, 0.0, goal.service);
-    if (count() + 1 == robot_.goal_count() || begin + goal.service > now_ + kSameTime) return;
-    visits_.push_back({count(), arrived_, begin + goal.service});
-    arrived_ = begin + goal.service;
-    service_done_ = 0.0;
-  }
-}
-
-ServedGoals served_goals(const Robot& robot, std::span<const Action> actions) {
-  GoalsOnTheWay on_the_way(robot);
-  for (const Action& action : actions) on_the_way.execute(action);
-  ServedGoals served{on_the_way.visits()};
-  const Pose pose = actions.empty() ? robot.start : actions.back().to;
-  if (robot.goal && is_in_pose(pose, robot.goal_at(on_the_way.count()))) {
-    served.in_next_pose = true;
-    served.arrived = on_the_way.arrived();
-    served.service_done = on_the_way.service_done();
-  }
-  return served;
-}
-
-std::vector<Visit> visits_of(const Robot& robot, std::span<const Action> actions) {
-  ServedGoals served = served_goals(robot, actions);
-  const std::size_t last = robot.goal_count() - 1;
-  if (robot.goal && served.in_next_pose && served.visits.size() == last) {
-    served.visits.push_back({last, served.arrived, kForever});
-  }
-  return std::move(served.visits);
-}
-
 namespace {
 
-/// The time in which a robot rests for a goal.
-struct Service {
-  std::size_t goal;
-  double begin;
-  double end;
-};
-
-/// Those of goals that take time, in their order. One that goes on at the end of the actions has no end.
-std::vector<Service> services_of(const Robot& robot, std::span<const Action> actions) {
-  std::vector<Service> services;
-  const auto add = [&](std::size_t index, double arrived, double end) {
-    const Goal& goal = robot.goal_at(index);
-    if (goal.service > 0.0 || goal.not_before > 0.0) services.push_back({index, arrived, end});
-  };
-  const ServedGoals served = served_goals(robot, actions);
-  for (const Visit& visit : served.visits) add(visit.goal, visit.t_arrive, visit.t_leave);
-  const std::size_t next = served.visits.size();
-  if (served.in_next_pose) add(next, served.arrived, robot.goal_at(next).service_end(served.arrived));
-  return services;
-}
-
-/// Adds a wait in parts, of which each serves one goal or none.
-void add_parts(const Action& wait, std::span<const Service> services, std::vector<Action>& parts) {
-  Action part = wait;
-  part.goal.reset();
-  for (const Service& service : services) {
-    if (service.begin > part.t_start + kLeastAction) {
-      part.t_end = service.begin;
-      parts.push_back(part);
-      part.t_start = part.t_end;
-    }
-    part.t_end = service.end < wait.t_end - kLeastAction ? service.end : wait.t_end;
-    part.goal = service.goal;
-    parts.push_back(part);
-    part.t_start = part.t_end;
-    part.goal.reset();
-  }
-  part.t_end = wait.t_end;
-  if (services.empty() || part.t_end > part.t_start) parts.push_back(part);
-}
-
-}  // namespace
-
-void mark_services(const Robot& robot, std::vector<Action>& actions, std::size_t first) {
-  if (!robot.goal) return;
-  const std::vector<Service> services = services_of(robot, actions);
-  std::vector<Action> marked;
-  marked.reserve(actions.size());
-  auto next = services.begin();
-  // Bounded: services follow one another, and so do actions; each looks at those of its own time.
-  for (std::size_t k = 0; k < actions.size(); ++k) {
-    Action action = actions[k];
-    const double shortest = std::min(kLeastAction, 0.5 * (action.t_end - action.t_start));
-    while (next != services.end() && next->end <= action.t_start + shortest) ++next;
-    auto last = next;
-    while (last != services.end() && last->begin < action.t_end - shortest) ++last;
-    if (action.type != Action::Type::wait) {
-      marked.push_back(action);
-    } else if (k >= first) {
-      add_parts(action, std::span(next, last), marked);
-    } else {
-      action.goal = next != last ? std::optional(next->goal) : std::nullopt;
-      marked.push_back(action);
-    }
-  }
-  actions = std::move(marked);
-}
-
-namespace {
+/// Seconds; far above the rounding of times, far below what any robot does.
+constexpr double kRounding = 1e-6;
 
 Trajectory committed_trajectory(const Robot& robot) {
   Trajectory trajectory;
@@ -147,26 +24,40 @@ Trajectory committed_trajectory(const Robot& robot) {
   return trajectory;
 }
 
+double direct_way(const Robot& robot) {
+  double length = 0.0;
+  Position from = robot.committed_end().position;
+  for (std::size_t k = 0; k < robot.goal_count(); ++k) {
+    const Position& to = robot.goal_at(k).position;
+    length += (to - from).norm();
+    from = to;
+  }
+  return length;
+}
+
 }  // namespace
 
-const std::vector<Action>& previous_actions(const Robot& robot) {
-  return robot.goal && robot.previous && !robot.previous->empty() ? *robot.previous : robot.committed;
+double Itinerary::radius_after_goals(std::size_t served) const {
+  for (std::size_t k = std::min(served, radius_after.size()); k > 0; --k) {
+    if (radius_after[k - 1]) return *radius_after[k - 1];
+  }
+  return load.radius;
 }
 
-double last_service_end(const Robot& robot, std::span<const Action> actions) {
-  const std::vector<Visit> visits = visits_of(robot, actions);
-  if (visits.size() < robot.goal_count()) return kForever;
-  return std::max(robot.goal->service_end(visits.back().t_arrive), robot.committed_until());
+double Itinerary::largest_radius() const {
+  double largest = load.radius;
+  for (const std::optional<double>& radius : radius_after)
+    largest = std::max(largest, radius.value_or(largest));
+  return largest;
 }
-
-double previous_service_end(const Robot& robot) { return last_service_end(robot, previous_actions(robot)); }
 
 Itinerary itinerary_of(const Robot& robot) {
   Itinerary itinerary;
   itinerary.committed = committed_trajectory(robot);
   itinerary.pose = robot.committed_end();
   itinerary.t_begin = robot.committed_until();
-  if (!robot.committed.empty()) {
+  itinerary.is_committed = !robot.committed.empty();
+  if (itinerary.is_committed) {
     ServedGoals served = served_goals(robot, robot.committed);
     itinerary.visited = std::move(served.visits);
     itinerary.first_goal = itinerary.visited.size();
@@ -176,7 +67,101 @@ Itinerary itinerary_of(const Robot& robot) {
   for (std::size_t k = itinerary.first_goal; k < robot.goal_count(); ++k) {
     itinerary.goals.push_back(robot.goal_at(k));
   }
+  itinerary.load = first_load(robot);
+  for (std::size_t k = 0; changes_radius(robot) && k < robot.goal_count(); ++k) {
+    itinerary.radius_after.push_back(robot.goal_at(k).radius_after);
+  }
+  itinerary.is_invalid = robot.invalid;
+  itinerary.is_idle = robot.is_idle();
+  itinerary.weight = robot.weight;
+  itinerary.goal_age = robot.goal_age;
+  if (robot.goal) itinerary.previous_end = previous_service_end(robot);
+  itinerary.direct_way = direct_way(robot);
   return itinerary;
+}
+
+std::vector<Itinerary> itineraries_of(std::span<const Robot> robots) {
+  std::vector<Itinerary> itineraries;
+  itineraries.reserve(robots.size());
+  for (const Robot& robot : robots) itineraries.push_back(itinerary_of(robot));
+  return itineraries;
+}
+
+bool has_arrived(const Itinerary& itinerary) {
+  const bool has_one_goal = itinerary.first_goal + itinerary.goals.size() == 1;
+  return has_one_goal && itinerary.last_goal().service == 0.0 &&
+         is_in_pose(itinerary.pose, itinerary.last_goal());
+}
+
+std::vector<RadiusStep> radius_steps(const Itinerary& itinerary, std::span<const Visit> visits) {
+  std::vector<RadiusStep> steps;
+  if (itinerary.radius_after.empty()) return steps;
+  for (const Visit& visit : visits) {
+    const std::optional<double>& radius = itinerary.radius_after[visit.goal];
+    if (radius && visit.t_leave < kForever) steps.push_back({visit.t_leave, *radius});
+  }
+  return steps;
+}
+
+std::vector<SizedSegment> with_radii(const std::vector<TimedSegment>& segments, double first,
+                                     const std::vector<RadiusStep>& steps) {
+  double radius = first;
+  auto step = steps.begin();
+  std::vector<SizedSegment> sized;
+  sized.reserve(segments.size() + steps.size());
+  // Bounded: each segment and each step once.
+  for (const TimedSegment& segment : segments) {
+    SizedSegment rest{segment, radius};
+    for (; step != steps.end() && step->t < rest.t_end - kRounding; ++step) {
+      if (step->t > rest.t_start + kRounding) {
+        SizedSegment before = rest;
+        before.t_end = step->t;
+        before.path.to = before.path.from;
+        sized.push_back(before);
+        rest.t_start = step->t;
+      }
+      radius = step->radius;
+      rest.radius = radius;
+    }
+    sized.push_back(rest);
+  }
+  return sized;
+}
+
+std::vector<SizedSegment> committed_segments(const Itinerary& itinerary) {
+  if (itinerary.t_begin <= 0.0) return {};
+  std::vector<TimedSegment> segments = timed_segments(itinerary.committed);
+  std::erase_if(segments, [&](const TimedSegment& segment) { return segment.t_start >= itinerary.t_begin; });
+  if (!segments.empty()) segments.back().t_end = std::min(segments.back().t_end, itinerary.t_begin);
+  return with_radii(segments, itinerary.load.radius, radius_steps(itinerary, itinerary.visited));
+}
+
+std::optional<SizedSegment> growth_at_end(const Itinerary& itinerary) {
+  double before = itinerary.load.radius;
+  double after = itinerary.load.radius;
+  for (const RadiusStep& step : radius_steps(itinerary, itinerary.visited)) {
+    after = step.radius;
+    if (step.t < itinerary.t_begin - kRounding) before = after;
+  }
+  if (after <= before) return std::nullopt;
+  const Position& place = itinerary.pose.position;
+  return SizedSegment{{{place, place}, itinerary.t_begin, itinerary.t_begin}, after};
+}
+
+std::vector<SizedSegment> certain_segments(const Itinerary& itinerary) {
+  std::vector<SizedSegment> segments = committed_segments(itinerary);
+  if (const auto growth = growth_at_end(itinerary)) segments.push_back(*growth);
+  return segments;
+}
+
+std::vector<SizedSegment> sized_segments(const Itinerary& itinerary, const Trajectory& trajectory) {
+  const std::vector<TimedSegment> segments = timed_segments(trajectory);
+  if (itinerary.radius_after.empty()) return with_radii(segments, itinerary.load.radius, {});
+  std::vector<Visit> visits = itinerary.visited;
+  visits.insert(visits.end(), trajectory.visits.begin(), trajectory.visits.end());
+  const std::size_t last = itinerary.radius_after.size() - 1;
+  if (!itinerary.is_parked()) visits.push_back({last, 0.0, trajectory.last_served});
+  return with_radii(segments, itinerary.load.radius, radius_steps(itinerary, visits));
 }
 
 }  // namespace fleetplan::core

@@ -1,100 +1,103 @@
 #pragma once
 
-// What a robot has served of its goals at the end of some actions, and what is left to plan.
+// What is left to plan for a robot, which the planners read instead of the robot itself; and where the robot
+// is on its way, with the radius that it has there.
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "core/geometry/segment.h"
 #include "core/model/action.h"
+#include "core/model/loads.h"
 #include "core/model/robot.h"
+#include "core/model/served.h"
 #include "core/model/trajectory.h"
 
 namespace fleetplan::core {
 
-/// Whether a robot in this pose is in the pose of the goal, within kContactTolerance; for a goal without
-/// theta, with any heading. Any pose is that of a goal that is anywhere.
-bool is_in_pose(const Pose& pose, const Goal& goal);
-
-/// Whether nothing is left to do for the robot, which has a goal, when its committed actions end.
-bool has_arrived(const Robot& robot);
-
-/// Follows the actions of a robot from rest to rest, contiguous from t = 0 in its start, and serves one goal
-/// after the other, each as early as possible: by an uninterrupted rest in its pose, or in the instant
-/// between two actions if it has no service. The last goal always remains.
-class GoalsOnTheWay {
- public:
-  /// `robot` outlives this object.
-  explicit GoalsOnTheWay(const Robot& robot);
-
-  void execute(const Action& action);
-  /// The number of goals that it has served.
-  std::size_t count() const { return visits_.size(); }
-  /// The visits to them, in their order.
-  const std::vector<Visit>& visits() const { return visits_; }
-  /// Since when it is at rest, or the end of the service of another goal in the same pose; seconds.
-  double arrived() const { return arrived_; }
-  /// Seconds of the service at the next goal that are done.
-  double service_done() const { return service_done_; }
-
- private:
-  void rest(const Pose& pose);
-
-  const Robot& robot_;
-  std::vector<Visit> visits_;
-  double arrived_ = 0.0;
-  double now_ = 0.0;
-  double service_done_ = 0.0;
-};
-
-/// The goals that a robot has served at the end of some actions. The last goal always remains.
-struct ServedGoals {
-  std::vector<Visit> visits;  // to the first goals, in their order
-  bool in_next_pose = false;  // at the end, the robot is at rest in the pose of the next goal, visits.size()
-  double arrived = 0.0;       // seconds: the begin of that rest, or the end of the visit before
-  double service_done = 0.0;  // seconds of the service at the next goal that are done
-};
-
-/// Returns the goals that a robot has served at the end of `actions`, see GoalsOnTheWay.
-ServedGoals served_goals(const Robot& robot, std::span<const Action> actions);
-
-/// Returns the visits to the goals of a robot that stays where `actions` end; the visit to the last goal has
-/// no end. There are fewer visits than goals if the robot does not serve all of them.
-std::vector<Visit> visits_of(const Robot& robot, std::span<const Action> actions);
-
-/// Says of the waits of a robot which goals with a service, or a `not_before`, they serve, by the visits that
-/// its actions make; of no others. A wait from `first` on that is more than one service is divided; one
-/// before is said to serve the first of its goals.
-void mark_services(const Robot& robot, std::vector<Action>& actions, std::size_t first);
-
-/// Returns the actions of the robot's previous plan as received; no actions for a robot that is parked or has
-/// no previous plan. If there are none, the robot rests after its committed actions.
-const std::vector<Action>& previous_actions(const Robot& robot);
-
-/// Returns when the service at the last goal ends for a robot with a goal that stays where `actions` end,
-/// seconds; kForever if it does not serve all goals. A service that is committed does not end before the
-/// commitment does.
-double last_service_end(const Robot& robot, std::span<const Action> actions);
-/// The same by the robot's previous plan.
-double previous_service_end(const Robot& robot);
-
-/// What is left to plan for a robot after its committed actions.
+/// What is left to plan for a robot after its committed actions. Its goals are numbered as those of the
+/// robot.
 struct Itinerary {
   Trajectory committed;        // the robot's centre until `t_begin`; then it stays
   Pose pose;                   // pose at `t_begin`
   double t_begin = 0.0;        // seconds; the plan goes on from here
+  bool is_committed = false;   // whether there are committed actions; they may take no time
   std::vector<Visit> visited;  // visits to the goals that the committed actions serve
   std::vector<Goal> goals;     // the goals that follow, the last one included; empty for a parked robot
-  std::size_t first_goal = 0;  // the number of goals.front() among all goals of the robot
+  std::size_t first_goal = 0;  // the number of goals.front()
   /// If the committed actions end at rest in the first goal's pose: when that rest begins, and how much of
   /// the service is done, seconds. This counts only as long as the robot does not leave.
   double arrived = 0.0;
   double service_done = 0.0;
+
+  Load load = {};  // at t = 0
+  /// Metres, by the number of the goal, those served included: the radius from the end of the service on;
+  /// nullopt: as before. Empty if the radius never changes.
+  std::vector<std::optional<double>> radius_after = {};
+
+  bool is_invalid = false;    // see Robot::invalid
+  bool is_idle = false;       // it makes way, and has no goals of its own, served or not: it need not move
+  double weight = 1.0;        // see Robot::weight
+  double goal_age = 0.0;      // seconds, see Robot::goal_age
+  double previous_end = 0.0;  // seconds, see previous_service_end()
+  double direct_way = 0.0;    // metres: straight from `pose` through all goals, those served included
+
+  /// Whether it stays where its committed actions end.
+  bool is_parked() const { return goals.empty(); }
+  /// Whether it makes way for others once it has served its own goals, or if it has none.
+  bool yields() const { return !goals.empty() && goals.back().anywhere; }
+  /// The goals with a pose, those served included.
+  std::size_t own_goal_count() const { return first_goal + goals.size() - (yields() ? 1 : 0); }
+  /// One of the goals that are left, by its number.
+  const Goal& goal(std::size_t number) const { return goals[number - first_goal]; }
+  const Goal& last_goal() const { return goals.back(); }
+
+  /// Metres, by the number of goals served.
+  double radius_after_goals(std::size_t served) const;
+  /// The largest radius at any time, and that at the end; metres.
+  double largest_radius() const;
+  double last_radius() const { return radius_after_goals(radius_after.size()); }
 };
 
 /// Returns what is left to plan for a robot. Its goals are served as early as possible by the rests of the
 /// committed actions, except the last goal, which always remains. A part of a service that is done counts if
 /// the robot goes on with it.
 Itinerary itinerary_of(const Robot& robot);
+/// The same for robots, in their order.
+std::vector<Itinerary> itineraries_of(std::span<const Robot> robots);
+
+/// Whether nothing is left to do for the robot, which has a goal, when its committed actions end.
+bool has_arrived(const Itinerary& itinerary);
+
+/// From `t` on (seconds) a robot has another radius.
+struct RadiusStep {
+  double t = 0.0;
+  double radius = 0.0;  // metres
+};
+
+/// The steps of a robot that makes these visits, which begin with its first goal. A visit without end makes
+/// none. Empty for a robot that keeps its radius.
+std::vector<RadiusStep> radius_steps(const Itinerary& itinerary, std::span<const Visit> visits);
+
+/// Contiguous segments from t = 0 with the radius of the robot, which is `first` metres at first; a rest is
+/// divided where the radius changes.
+std::vector<SizedSegment> with_radii(const std::vector<TimedSegment>& segments, double first,
+                                     const std::vector<RadiusStep>& steps);
+
+/// The committed motion of a robot, waits included, from t = 0 to its end; see with_radii.
+std::vector<SizedSegment> committed_segments(const Itinerary& itinerary);
+
+/// The instant at which the committed motion ends, if the robot has a larger radius from then on: then it
+/// certainly has it, however soon it leaves.
+std::optional<SizedSegment> growth_at_end(const Itinerary& itinerary);
+
+/// Returns where a robot with a goal certainly is: its committed motion, and then the instant of
+/// growth_at_end.
+std::vector<SizedSegment> certain_segments(const Itinerary& itinerary);
+
+/// The segments of a robot's trajectory, contiguous from t = 0 on; see with_radii.
+std::vector<SizedSegment> sized_segments(const Itinerary& itinerary, const Trajectory& trajectory);
 
 }  // namespace fleetplan::core

@@ -10,9 +10,6 @@
 namespace fleetplan::core {
 namespace {
 
-/// Seconds; far above the rounding of times, far below what any robot does.
-constexpr double kRounding = 1e-6;
-
 template <class Condition>
 bool any_goal(const Robot& robot, const Condition& condition) {
   return (robot.goal && condition(*robot.goal)) || std::any_of(robot.via.begin(), robot.via.end(), condition);
@@ -134,77 +131,6 @@ double last_radius(const Robot& robot) {
     if (const auto& radius = robot.goal_at(k - 1).radius_after) return *radius;
   }
   return robot.radius;
-}
-
-std::vector<RadiusStep> radius_steps(const Robot& robot, std::span<const Visit> visits) {
-  std::vector<RadiusStep> steps;
-  if (!changes_radius(robot)) return steps;
-  for (const Visit& visit : visits) {
-    const auto& radius = robot.goal_at(visit.goal).radius_after;
-    if (radius && visit.t_leave < kForever) steps.push_back({visit.t_leave, *radius});
-  }
-  return steps;
-}
-
-std::vector<SizedSegment> with_radii(const std::vector<TimedSegment>& segments, const Robot& robot,
-                                     const std::vector<RadiusStep>& steps) {
-  double radius = robot.radius;
-  auto step = steps.begin();
-  std::vector<SizedSegment> sized;
-  sized.reserve(segments.size() + steps.size());
-  // Bounded: each segment and each step once.
-  for (const TimedSegment& segment : segments) {
-    SizedSegment rest{segment, radius};
-    for (; step != steps.end() && step->t < rest.t_end - kRounding; ++step) {
-      if (step->t > rest.t_start + kRounding) {
-        SizedSegment before = rest;
-        before.t_end = step->t;
-        before.path.to = before.path.from;
-        sized.push_back(before);
-        rest.t_start = step->t;
-      }
-      radius = step->radius;
-      rest.radius = radius;
-    }
-    sized.push_back(rest);
-  }
-  return sized;
-}
-
-std::vector<SizedSegment> sized_segments(const Robot& robot, const Itinerary& itinerary,
-                                         const Trajectory& trajectory) {
-  const std::vector<TimedSegment> segments = timed_segments(trajectory);
-  if (!changes_radius(robot)) return with_radii(segments, robot, {});
-  std::vector<Visit> visits = itinerary.visited;
-  visits.insert(visits.end(), trajectory.visits.begin(), trajectory.visits.end());
-  if (robot.goal) visits.push_back({robot.via.size(), 0.0, trajectory.last_served});
-  return with_radii(segments, robot, radius_steps(robot, visits));
-}
-
-std::vector<SizedSegment> committed_segments(const Robot& robot, const Itinerary& itinerary) {
-  if (itinerary.t_begin <= 0.0) return {};
-  std::vector<TimedSegment> segments = timed_segments(itinerary.committed);
-  std::erase_if(segments, [&](const TimedSegment& segment) { return segment.t_start >= itinerary.t_begin; });
-  if (!segments.empty()) segments.back().t_end = std::min(segments.back().t_end, itinerary.t_begin);
-  return with_radii(segments, robot, radius_steps(robot, itinerary.visited));
-}
-
-std::optional<SizedSegment> growth_at_end(const Robot& robot, const Itinerary& itinerary) {
-  double before = robot.radius;
-  double after = robot.radius;
-  for (const RadiusStep& step : radius_steps(robot, itinerary.visited)) {
-    after = step.radius;
-    if (step.t < itinerary.t_begin - kRounding) before = after;
-  }
-  if (after <= before) return std::nullopt;
-  const Position& place = itinerary.pose.position;
-  return SizedSegment{{{place, place}, itinerary.t_begin, itinerary.t_begin}, after};
-}
-
-std::vector<SizedSegment> certain_segments(const Robot& robot, const Itinerary& itinerary) {
-  std::vector<SizedSegment> segments = committed_segments(robot, itinerary);
-  if (const auto growth = growth_at_end(robot, itinerary)) segments.push_back(*growth);
-  return segments;
 }
 
 }  // namespace fleetplan::core

@@ -11,22 +11,22 @@ using Objective = PlanOptions::Objective;
 /// but where delays are equal, and enough for gains of cost to be told from rounding.
 constexpr double kShareOfCost = 1e-4;
 
-double total_delay(const Robot& robot, const std::vector<Visit>& visits) {
+/// `goal_of` returns the goal with a number.
+template <class GoalOf>
+double total_delay(const std::vector<Visit>& visits, const GoalOf& goal_of) {
   double sum = 0.0;
-  for (const Visit& visit : visits) {
-    sum += late_by(robot.goal_at(visit.goal), visit.t_arrive).value_or(0.0);
-  }
+  for (const Visit& visit : visits) sum += late_by(goal_of(visit.goal), visit.t_arrive).value_or(0.0);
   return sum;
 }
 
 /// The delay at the last goal of a robot that ends its service there at `cost`. One that waits for
 /// `not_before` is not late.
-double delay_at_last(const Robot& robot, double cost) {
-  return late_by(*robot.goal, cost - robot.goal->service).value_or(0.0);
+double delay_at_last(const Itinerary& itinerary, double cost) {
+  return late_by(itinerary.last_goal(), cost - itinerary.last_goal().service).value_or(0.0);
 }
 
-double with_cost(const Robot& robot, double delay, double cost) {
-  return robot.weight * (delay + kShareOfCost * cost);
+double with_cost(const Itinerary& itinerary, double delay, double cost) {
+  return itinerary.weight * (delay + kShareOfCost * cost);
 }
 
 }  // namespace
@@ -35,25 +35,27 @@ std::optional<double> late_by(const Goal& goal, double t_arrive) {
   return goal.due ? std::optional(std::max(0.0, t_arrive - *goal.due)) : std::nullopt;
 }
 
-double share_of(const Robot& robot, Objective objective, const Trajectory& trajectory) {
-  if (objective != Objective::tardiness) return robot.weight * trajectory.cost;
-  double delay = total_delay(robot, trajectory.visits);
-  delay += trajectory.stops_at ? total_delay(robot, trajectory.estimated_visits)
-                               : delay_at_last(robot, trajectory.cost);
-  return with_cost(robot, delay, trajectory.cost);
+double share_of(const Itinerary& itinerary, Objective objective, const Trajectory& trajectory) {
+  if (objective != Objective::tardiness) return itinerary.weight * trajectory.cost;
+  const auto goal_of = [&](std::size_t number) -> const Goal& { return itinerary.goal(number); };
+  double delay = total_delay(trajectory.visits, goal_of);
+  delay += trajectory.stops_at ? total_delay(trajectory.estimated_visits, goal_of)
+                               : delay_at_last(itinerary, trajectory.cost);
+  return with_cost(itinerary, delay, trajectory.cost);
 }
 
-double least_share(const Robot& robot, Objective objective, double cost) {
-  if (objective != Objective::tardiness) return robot.weight * cost;
-  return with_cost(robot, delay_at_last(robot, cost), cost);
+double least_share(const Itinerary& itinerary, Objective objective, double cost) {
+  if (objective != Objective::tardiness) return itinerary.weight * cost;
+  return with_cost(itinerary, delay_at_last(itinerary, cost), cost);
 }
 
-double cost_with_share(const Robot& robot, Objective objective, double share) {
-  const double seconds = share / robot.weight;
+double cost_with_share(const Itinerary& itinerary, Objective objective, double share) {
+  const double seconds = share / itinerary.weight;
   if (objective != Objective::tardiness) return seconds;
   const double if_in_time = seconds / kShareOfCost;
-  if (!robot.goal->due) return if_in_time;
-  const double late_from = *robot.goal->due + robot.goal->service;
+  const Goal& last = itinerary.last_goal();
+  if (!last.due) return if_in_time;
+  const double late_from = *last.due + last.service;
   const double if_late = (seconds + late_from) / (1.0 + kShareOfCost);
   return std::min(if_in_time, std::max(if_late, late_from));
 }
@@ -69,7 +71,8 @@ double objective_value(const Plan& plan, const std::vector<Robot>& robots, Objec
     } else if (objective == Objective::flowtime) {
       value += robot.weight * cost;
     } else {
-      value += robot.weight * (total_delay(robot, one.visits) + total_delay(robot, one.estimated_visits));
+      const auto goal_of = [&](std::size_t number) -> const Goal& { return robot.goal_at(number); };
+      value += robot.weight * (total_delay(one.visits, goal_of) + total_delay(one.estimated_visits, goal_of));
     }
   }
   return value;

@@ -37,7 +37,7 @@ std::vector<Disk> certain_motion(const Robot& robot) {
       motion.push_back({MovingDisk(segment), robot.radius});
     }
   } else if (robot.committed_until() > 0.0) {
-    for (const SizedSegment& segment : certain_segments(robot, itinerary_of(robot))) {
+    for (const SizedSegment& segment : certain_segments(itinerary_of(robot))) {
       motion.push_back({MovingDisk(segment), segment.radius});
     }
   }
@@ -115,7 +115,8 @@ class CommittedFaults {
     const double least = std::max(full - conditions_.wall_overlap, kSmallestDisk * full);
     if (!sight.disk_fits(robot.start.position, least)) return;  // its start is at fault
     double radius = sight.fitting_radius(robot.start.position, least, full);
-    const std::vector<RadiusStep> steps = radius_steps(robot, itinerary_of(robot).visited);
+    const Itinerary itinerary = itinerary_of(robot);
+    const std::vector<RadiusStep> steps = radius_steps(itinerary, itinerary.visited);
     auto step = steps.begin();
     double own = robot.radius;
     for (const Action& action : robot.committed) {

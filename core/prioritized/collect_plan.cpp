@@ -51,7 +51,7 @@ void remove_unserved_goals(std::vector<Action>& actions, std::size_t served, std
 RobotPlan robot_plan(const FleetReservations& reservations, std::size_t index, double bound) {
   const auto& trajectory = reservations.trajectory(index);
   const Instance& instance = reservations.instance();
-  const Robot& robot = instance.robot(index);
+  const Robot& robot = instance.problem().robots()[index];
   if (!trajectory)
     return {index, robot.committed_until(), robot.committed, robot.committed_until()};  // parked
   const double cost = trajectory->stops_at.value_or(trajectory->cost);
@@ -62,7 +62,7 @@ RobotPlan robot_plan(const FleetReservations& reservations, std::size_t index, d
     return {index, cost, std::move(actions), std::min(bound, cost), std::move(visits)};
   }
   // Rounding may leave a bound slightly above the cost that it bounds.
-  std::vector<Action> actions = to_actions(robot, *trajectory, instance.stages(index)[0].zones.get());
+  std::vector<Action> actions = to_actions(robot, *trajectory, instance.views(index)[0].zones.get());
   std::vector<Visit> visits = visits_of(robot, actions);
   // The search may let a robot rest for long enough in a goal's pose and serve the goal when it comes back.
   // The goal counts as served by the first rest, so the later wait is for none.

@@ -69,7 +69,7 @@ Enclosure::Enclosure(const Instance& instance, std::size_t robot, const std::vec
     const Position& center = instance.itinerary(other).pose.position;
     // A robot that starts too near to another one may leave, but may come no nearer.
     const double reach =
-        std::min(instance.stages(robot).slimmest_motion().pair_radius + instance.motion(other).pair_radius,
+        std::min(instance.views(robot).slimmest_body().pair_radius + instance.body(other).pair_radius,
                  (start - center).norm());
     disks_.push_back({other, center, reach - kSlack, false});
     longest_reach_ = std::max(longest_reach_, reach);
@@ -81,10 +81,9 @@ Enclosure::Enclosure(const Instance& instance, std::size_t robot, const std::vec
 /// Returns the distance that the robot's centre keeps from obstacles on its way, metres: its smallest radius,
 /// or less if the robot is nearer to an obstacle at its start or goal.
 double Enclosure::required_clearance() const {
-  const Robot& robot = instance_.robot(robot_);
-  double clearance = instance_.stages(robot_).slimmest_motion().wall_radius;
-  const Position& start = instance_.itinerary(robot_).pose.position;
-  for (const Position& position : {start, robot.goal->position}) {
+  double clearance = instance_.views(robot_).slimmest_body().wall_radius;
+  const Itinerary& itinerary = instance_.itinerary(robot_);
+  for (const Position& position : {itinerary.pose.position, itinerary.last_goal().position}) {
     if (instance_.sight_past_walls().disk_fits(position, clearance)) continue;
     clearance = std::min(clearance, obstacle_distance(grid_, position, clearance));
   }
@@ -193,9 +192,9 @@ std::vector<std::size_t> Enclosure::necessary(const std::vector<Disk*>& removed,
 Enclosure::Flood Enclosure::flood(std::int64_t max_steps) {
   steps_ = 0;
   Flood flood(grid_);
-  const Robot& robot = instance_.robot(robot_);
-  const Position& start = instance_.itinerary(robot_).pose.position;
-  const std::array<Cell, 2> begins{grid_.cell_at(start), grid_.cell_at(robot.goal->position)};
+  const Itinerary& itinerary = instance_.itinerary(robot_);
+  const std::array<Cell, 2> begins{grid_.cell_at(itinerary.pose.position),
+                                   grid_.cell_at(itinerary.last_goal().position)};
   for (std::size_t side = 0; side < Flood::kSides.size(); ++side) {
     flood.reached[grid_.index(begins[side])] = Flood::kSides[side];
     flood.cells[side].push_back(begins[side]);

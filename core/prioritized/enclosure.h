@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/compile/instance.h"
 #include "core/geometry/position.h"
-#include "core/instance/instance.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {

@@ -9,10 +9,10 @@
 #include <queue>
 #include <utility>
 
+#include "core/compile/instance.h"
 #include "core/geometry/bucket_grid.h"
 #include "core/geometry/disk_motion.h"
 #include "core/geometry/tolerance.h"
-#include "core/instance/instance.h"
 #include "core/prioritized/search_memory.h"
 #include "core/prioritized/static_ways.h"
 #include "core/runtime/arrays.h"
@@ -63,7 +63,7 @@ class ExpectedArrivals {
         buckets_(instance_.problem().grid().width(), instance_.problem().grid().height(), bucket_size()),
         goals_in_(buckets_.count()) {
     for (const std::size_t robot : robots) {
-      if (instance_.robot(robot).yields()) continue;  // it does not stay where others pass
+      if (instance_.itinerary(robot).yields()) continue;  // it does not stay where others pass
       goals_in_[buckets_.at(goal_of(robot))].push_back(robot);
     }
   }
@@ -98,20 +98,20 @@ class ExpectedArrivals {
   };
   using Open = std::pair<double, int>;  // estimated cost, vertex
 
-  const Position& goal_of(std::size_t robot) const { return instance_.robot(robot).goal->position; }
+  const Position& goal_of(std::size_t robot) const { return instance_.itinerary(robot).last_goal().position; }
   double resting_radius(std::size_t robot) const {
-    const RobotStages& stages = instance_.stages(robot);
-    return stages[instance_.itinerary(robot).goals.size()].motion.pair_radius;
+    const Views& views = instance_.views(robot);
+    return views[instance_.itinerary(robot).goals.size()].body.pair_radius;
   }
   double rank(std::size_t robot) const {
-    return rank_by_time(instance_.robot(robot), expected_[robot].arrival);
+    return rank_by_time(instance_.itinerary(robot), expected_[robot].arrival);
   }
 
   /// So large that a disk comes near few buckets, and that there are not many more buckets than robots.
   double bucket_size() {
     double widest = 0.0;
     for (const std::size_t robot : robots_) {
-      widest = std::max(widest, instance_.stages(robot).largest_disk().pair_radius);
+      widest = std::max(widest, instance_.views(robot).largest_disk().pair_radius);
       widest_at_rest_ = std::max(widest_at_rest_, resting_radius(robot));
     }
     constexpr double kBucketsPerRobot = 4.0;
@@ -210,7 +210,7 @@ class ExpectedArrivals {
   template <class Visitor>
   void for_each_passed(std::size_t robot, std::size_t stage, const TimedSegment& move,
                        Visitor&& visit) const {
-    const double radius = instance_.stages(robot)[stage].motion.pair_radius;
+    const double radius = instance_.views(robot)[stage].body.pair_radius;
     const MovingDisk disk(move);
     buckets_.cover(disk, radius + widest_at_rest_, [&](std::size_t bucket, double, double) {
       for (const std::size_t other : goals_in_[bucket]) {
@@ -249,8 +249,8 @@ class ExpectedArrivals {
   /// Whether the robot can get around a goal, past the obstacles and other goals, for less than its robot
   /// would lose: in two straight moves beside it.
   bool has_room_beside(std::size_t robot, const Passage& passage) const {
-    const LoadedRobot& loaded = instance_.stages(robot)[passage.stage];
-    const double reach = loaded.motion.pair_radius + resting_radius(passage.other);
+    const View& view = instance_.views(robot)[passage.stage];
+    const double reach = view.body.pair_radius + resting_radius(passage.other);
     const Position way = passage.path.to - passage.path.from;
     const Position along = way.normalized();
     const Position across(-along.y(), along.x());
@@ -261,7 +261,7 @@ class ExpectedArrivals {
     for (const double side : {1.0, -1.0}) {
       const Position around = goal_of(passage.other) + side * (reach + kContactTolerance) * across;
       const double longer = (around - before).norm() + (after - around).norm() - (after - before).norm();
-      if (loaded.motion.cruise_time(longer) > share_of(robot, passage)) continue;
+      if (view.body.cruise_time(longer) > share_of(robot, passage)) continue;
       if (is_free(robot, {before, around}, passage) && is_free(robot, {around, after}, passage)) return true;
     }
     return false;
@@ -269,10 +269,10 @@ class ExpectedArrivals {
 
   /// Whether the robot may move so, at about the time of a passage, without another one.
   bool is_free(std::size_t robot, const Segment& path, const Passage& passage) const {
-    const LoadedRobot& loaded = instance_.stages(robot)[passage.stage];
-    if (!loaded.free_space->may_sweep(path.from, path.to, loaded.motion.wall_radius)) return false;
+    const View& view = instance_.views(robot)[passage.stage];
+    if (!view.free_space->may_sweep(path.from, path.to, view.body.wall_radius)) return false;
     bool is_free = true;
-    const double duration = loaded.motion.cruise_time(path.length());
+    const double duration = view.body.cruise_time(path.length());
     for_each_passed(robot, passage.stage, {path, passage.t_end, passage.t_end + duration},
                     [&](const Passage& next) {
                       if (next.other != passage.other && delay(next) > 0.0) is_free = false;
@@ -332,7 +332,7 @@ class ExpectedArrivals {
 
   /// What another robot loses because it waits for this one, in the time of this one; seconds.
   double share_of(std::size_t robot, const Passage& passage) const {
-    return delay(passage) * instance_.robot(passage.other).weight / instance_.robot(robot).weight;
+    return delay(passage) * instance_.itinerary(passage.other).weight / instance_.itinerary(robot).weight;
   }
 
   /// Calls visit(Passage) for the goals that the robot comes near at the end of a lattice move, and not
@@ -340,16 +340,16 @@ class ExpectedArrivals {
   template <class Visitor>
   void for_each_entered(std::size_t robot, std::size_t stage, const TimedSegment& move,
                         Visitor&& visit) const {
-    const Motion& motion = instance_.stages(robot)[stage].motion;
+    const Body& body = instance_.views(robot)[stage].body;
     const Position& here = move.path.to;
     const MovingDisk at_end({{here, here}, move.t_end, move.t_end});
-    buckets_.cover(at_end, motion.pair_radius + widest_at_rest_, [&](std::size_t bucket, double, double) {
+    buckets_.cover(at_end, body.pair_radius + widest_at_rest_, [&](std::size_t bucket, double, double) {
       for (const std::size_t other : goals_in_[bucket]) {
-        const double reach = motion.pair_radius + resting_radius(other);
+        const double reach = body.pair_radius + resting_radius(other);
         const bool enters =
             (goal_of(other) - here).norm() < reach && (goal_of(other) - move.path.from).norm() >= reach;
         if (!enters || other == robot) continue;
-        visit(Passage{other, stage, move.t_end + motion.cruise_time(2.0 * reach), move.path});
+        visit(Passage{other, stage, move.t_end + body.cruise_time(2.0 * reach), move.path});
       }
     });
   }

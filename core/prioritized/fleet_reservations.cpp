@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/model/loads.h"
+#include "core/model/itinerary.h"
 
 namespace fleetplan::core {
 namespace {
@@ -55,7 +55,7 @@ const FixedReservations* fixed_reservations(const Instance& instance) {
 std::vector<LargestDisk> largest_disks(const Instance& instance) {
   std::vector<LargestDisk> disks;
   disks.reserve(instance.size());
-  for (std::size_t i = 0; i < instance.size(); ++i) disks.push_back(instance.stages(i).largest_disk());
+  for (std::size_t i = 0; i < instance.size(); ++i) disks.push_back(instance.views(i).largest_disk());
   return disks;
 }
 
@@ -85,7 +85,7 @@ void FleetReservations::reserve_place(std::size_t robot, double seconds) {
   remove(robot);
   if (seconds > 0.0) {
     const TimedSegment rest{{place, place}, itinerary.t_begin, itinerary.t_begin + seconds};
-    table_.reserve(robot, {{rest, instance_.stages(robot)[0].load.radius}});
+    table_.reserve(robot, {{rest, instance_.body(robot).radius}});
   }
   reserved_.holds_place_for[robot] = seconds;
   if (stays(robot)) ++staying_count_;
@@ -184,14 +184,13 @@ void FleetReservations::lengthen(std::size_t robot) {
 void FleetReservations::reserve_goal(std::size_t robot, std::size_t goal) {
   const Position& place = instance_.itinerary(robot).goals[goal].position;
   table_.reserve(robot,
-                 {{{{place, place}, kAfterAllExits, kForever}, instance_.stages(robot)[goal].load.radius}});
+                 {{{{place, place}, kAfterAllExits, kForever}, instance_.views(robot)[goal].body.radius}});
 }
 
 std::vector<SizedSegment> FleetReservations::after_commitment(std::size_t robot,
                                                               const Trajectory& trajectory) const {
   const double t_begin = instance_.itinerary(robot).t_begin;
-  std::vector<SizedSegment> segments =
-      sized_segments(instance_.robot(robot), instance_.itinerary(robot), trajectory);
+  std::vector<SizedSegment> segments = sized_segments(instance_.itinerary(robot), trajectory);
   return t_begin > 0.0 ? from_time(t_begin, std::move(segments)) : segments;
 }
 

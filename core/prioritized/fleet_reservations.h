@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/instance/instance.h"
+#include "core/compile/instance.h"
 #include "core/model/trajectory.h"
 #include "core/reservation/reservation_table.h"
 

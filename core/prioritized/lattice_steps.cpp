@@ -25,7 +25,7 @@ constexpr double kShareOfSteps = 0.4;
 bool is_simple(const Instance& instance, std::size_t robot) {
   const Itinerary& itinerary = instance.itinerary(robot);
   return itinerary.goals.size() == 1 && !itinerary.goals.front().anywhere &&
-         !instance.stages(robot).changes_load() && instance.stages(robot)[0].zones == nullptr;
+         !instance.views(robot).change() && instance.views(robot)[0].zones == nullptr;
 }
 
 /// Makes the graph of a fleet's steps, if it has one.
@@ -39,7 +39,7 @@ class StepGraph {
     if (robots_.empty() || !instance_.problem().obstacles().empty()) return std::nullopt;
     if (options.horizon || options.interval_margin > 0.0) return std::nullopt;
     for (std::size_t i = 0; i < instance_.size(); ++i) {
-      if (!instance_.robot(i).committed.empty()) return std::nullopt;
+      if (instance_.itinerary(i).is_committed) return std::nullopt;
     }
     const Lattice& lattice = instance_.lattice(robots_.front());
     const auto vertices = static_cast<std::size_t>(lattice.vertex_count());
@@ -49,7 +49,7 @@ class StepGraph {
     StepProblem problem;
     for (const std::size_t robot : robots_) {
       if (!is_simple(instance_, robot) || &instance_.lattice(robot) != &lattice) return std::nullopt;
-      widest_ = std::max(widest_, instance_.motion(robot).pair_radius);
+      widest_ = std::max(widest_, instance_.body(robot).pair_radius);
       const Itinerary& itinerary = instance_.itinerary(robot);
       const int start = lattice.vertex_at(itinerary.pose.position);
       const int goal = lattice.vertex_at(itinerary.goals.front().position);
@@ -65,7 +65,7 @@ class StepGraph {
     if (2.0 * widest_ > lattice.spacing() + kSearchSlack) return std::nullopt;
     std::map<const FreeSpace*, std::size_t> known;
     for (std::size_t k = 0; k < robots_.size(); ++k) {
-      FreeSpace& space = *instance_.stages(robots_[k])[0].free_space;
+      FreeSpace& space = *instance_.views(robots_[k])[0].free_space;
       const auto [entry, is_new] = known.emplace(&space, problem.graphs.size());
       problem.movers[k].graph = entry->second;
       if (!is_new) continue;
@@ -86,7 +86,7 @@ class StepGraph {
     for (std::size_t i = 0; i < instance_.size(); ++i) {
       if (moves[i] || !reservations_.stays(i)) continue;
       const Position& position = instance_.itinerary(i).pose.position;
-      widest_ = std::max(widest_, instance_.stages(i).largest_disk().pair_radius);
+      widest_ = std::max(widest_, instance_.views(i).largest_disk().pair_radius);
       const int vertex = lattice.vertex_at(position);
       if (vertex >= 0) {
         taken_[static_cast<std::size_t>(vertex)] = true;
@@ -155,7 +155,7 @@ class TimedSteps {
     for (Mover& mover : movers_) {
       const Goal& goal = instance_.itinerary(mover.robot).goals.front();
       double t = mover.arrival;
-      if (goal.theta) t += instance_.motion(mover.robot).rotation_time(mover.heading, *goal.theta);
+      if (goal.theta) t += instance_.body(mover.robot).rotation_time(mover.heading, *goal.theta);
       mover.trajectory.cost = goal.service_end(t);
       trajectories.push_back(std::move(mover.trajectory));
     }
@@ -194,10 +194,10 @@ class TimedSteps {
   }
 
   /// The parts of a step from rest to rest that begins at time 0.
-  static std::vector<TimedSegment> parts(const Motion& motion, const Segment& path, double duration) {
+  static std::vector<TimedSegment> parts(const Body& body, const Segment& path, double duration) {
     const TimedSegment step{path, 0.0, duration};
-    if (!motion.linear_inertia.is_limited) return {step};
-    return phases(step, fastest_profile(path.length(), motion.linear_speed, motion.linear_inertia));
+    if (!body.linear_inertia.is_limited) return {step};
+    return phases(step, fastest_profile(path.length(), body.linear_speed, body.linear_inertia));
   }
 
   /// The time from which on a robot may set out on a step to a vertex, after the last one that was there.
@@ -223,17 +223,17 @@ class TimedSteps {
 
   void move(std::size_t k, int from, int to) {
     Mover& mover = movers_[k];
-    const Motion& motion = instance_.motion(mover.robot);
+    const Body& body = instance_.body(mover.robot);
     const Segment path{lattice_.position(from), lattice_.position(to)};
     const Displacement way = lattice_.between(from, to);
-    const double duration = motion.translation_time(way.length);
-    std::vector<TimedSegment> step = parts(motion, path, duration);
-    const double free = free_from(at(to), step, motion.pair_radius);
+    const double duration = body.translation_time(way.length);
+    std::vector<TimedSegment> step = parts(body, path, duration);
+    const double free = free_from(at(to), step, body.pair_radius);
     std::vector<TimedMove>& moves = mover.trajectory.moves;
-    const bool goes_on = !moves.empty() && !motion.linear_inertia.is_limited && free <= mover.arrival &&
+    const bool goes_on = !moves.empty() && !body.linear_inertia.is_limited && free <= mover.arrival &&
                          angle_between(mover.heading, way.heading) <= kSameHeading;
     const double turned =
-        mover.arrival + motion.rotation_time(mover.heading, way.heading) + motion.wait_before_move;
+        mover.arrival + body.rotation_time(mover.heading, way.heading) + body.wait_before_move;
     const double departure = goes_on ? mover.arrival : std::max(turned, free);
     const double arrival = departure + duration;
     if (goes_on) {
@@ -241,15 +241,15 @@ class TimedSteps {
       moves.back().t_end = arrival;
     } else {
       TimedMove& move = moves.emplace_back(TimedMove{{path, departure, arrival}});
-      if (motion.linear_inertia.is_limited) {
-        move.profile = fastest_profile(way.length, motion.linear_speed, motion.linear_inertia);
+      if (body.linear_inertia.is_limited) {
+        move.profile = fastest_profile(way.length, body.linear_speed, body.linear_inertia);
       }
     }
     Vertex& left = at(from);
     if (!left.last.phases.empty()) {
       left.others_until = std::max(left.others_until, left.last.phases.back().t_end);
     }
-    left.last = {std::move(mover.arriving), motion.pair_radius};
+    left.last = {std::move(mover.arriving), body.pair_radius};
     left.last.phases.push_back({{path.from, path.from}, mover.arrival, departure});
     for (TimedSegment& part : step) {
       part.t_start += departure;
@@ -283,7 +283,7 @@ std::optional<std::vector<Trajectory>> plan_in_steps(const FleetReservations& re
   }
   std::vector<Trajectory> trajectories = steps.finish();
   for (std::size_t k = 0; k < robots.size(); ++k) {
-    if (trajectories[k].cost >= reservations.instance().stages(robots[k]).longest_plan()) return std::nullopt;
+    if (trajectories[k].cost >= reservations.instance().views(robots[k]).longest_plan()) return std::nullopt;
   }
   return trajectories;
 }

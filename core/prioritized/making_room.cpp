@@ -84,11 +84,11 @@ class MakingRoom {
   }
 
   bool moves_aside(std::size_t robot) const {
-    return !instance_.stages(robot).changes_load() && !instance_.robot(robot).yields();
+    return !instance_.views(robot).change() && !instance_.itinerary(robot).yields();
   }
 
   double reach(std::size_t a, std::size_t b) const {
-    return instance_.motion(a).pair_radius + instance_.motion(b).pair_radius;
+    return instance_.body(a).pair_radius + instance_.body(b).pair_radius;
   }
 
   /// Where two robots that know nothing of each other first meet, as seen by the first one; none if they do
@@ -160,9 +160,9 @@ class MakingRoom {
   /// How far a robot may move aside from a place, metres, up to `most`; none if it does not fit there.
   std::optional<double> room(std::size_t robot, const Position& from, const Position& aside,
                              double most) const {
-    const LoadedRobot& loaded = instance_.stages(robot)[0];
+    const View& view = instance_.views(robot)[0];
     const auto is_free = [&](double distance) {
-      return loaded.free_space->may_sweep(from, from + distance * aside, loaded.motion.wall_radius);
+      return view.free_space->may_sweep(from, from + distance * aside, view.body.wall_radius);
     };
     if (!is_free(0.0)) return std::nullopt;
     if (is_free(most)) return most;

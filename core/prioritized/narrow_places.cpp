@@ -5,7 +5,7 @@
 #include <utility>
 #include <variant>
 
-#include "core/instance/instance.h"
+#include "core/compile/instance.h"
 
 namespace fleetplan::core {
 namespace {

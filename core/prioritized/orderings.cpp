@@ -22,7 +22,7 @@ std::size_t permutations(std::size_t count, std::size_t limit) {
 }
 
 /// Moves robots that have arrived to the end, and the one whose goal is the oldest to the front.
-void order_for_horizon(const std::vector<Robot>& all, PriorityOrder& order) {
+void order_for_horizon(const std::vector<Itinerary>& all, PriorityOrder& order) {
   // No search fails that may end with a wait, so no robot would be raised above one in its way for good.
   const auto end = std::stable_partition(order.begin(), order.end(),
                                          [&](auto i) { return all[i].yields() || !has_arrived(all[i]); });
@@ -32,36 +32,25 @@ void order_for_horizon(const std::vector<Robot>& all, PriorityOrder& order) {
   if (oldest != end && all[*oldest].goal_age > 0.0) std::rotate(order.begin(), oldest, oldest + 1);
 }
 
-/// Along straight lines from goal to goal, metres.
-double distance_to_goals(const Robot& robot) {
-  double distance = 0.0;
-  Position from = robot.committed_end().position;
-  for (const Goal& goal : robot.via) {
-    distance += (goal.position - from).norm();
-    from = goal.position;
-  }
-  return distance + (robot.goal->position - from).norm();
-}
-
 /// A time of a robot as it counts for its rank: half way between time and distance. In the paper's halls that
 /// gave the cheapest first solutions; travel time fails more often in crowds.
-double with_speed_weight(const Robot& robot, double seconds) {
-  return seconds * std::sqrt(robot.linear_speed);
+double with_speed_weight(const Itinerary& itinerary, double seconds) {
+  return seconds * std::sqrt(itinerary.load.linear_speed);
 }
 
 }  // namespace
 
-double rank_by_time(const Robot& robot, double seconds) {
-  return with_speed_weight(robot, seconds) / robot.weight;
+double rank_by_time(const Itinerary& itinerary, double seconds) {
+  return with_speed_weight(itinerary, seconds) / itinerary.weight;
 }
 
 PriorityOrder initial_order(const Instance& instance, std::vector<std::size_t> robots, Random& random) {
-  return initial_order(instance.problem().robots(), instance.options(), std::move(robots), random);
+  return initial_order(instance.itineraries(), instance.options(), std::move(robots), random);
 }
 
-PriorityOrder initial_order(const std::vector<Robot>& all, const PlanOptions& options,
+PriorityOrder initial_order(const std::vector<Itinerary>& all, const PlanOptions& options,
                             std::vector<std::size_t> robots, Random& random) {
-  const auto straight = [&](std::size_t i) { return distance_to_goals(all[i]) / all[i].linear_speed; };
+  const auto straight = [&](std::size_t i) { return all[i].direct_way / all[i].load.linear_speed; };
   switch (options.priority) {
     case PlanOptions::Priority::shortest_first:
       std::stable_sort(robots.begin(), robots.end(), [&](auto a, auto b) {
@@ -86,7 +75,9 @@ PriorityOrder initial_order(const std::vector<Robot>& all, const PlanOptions& op
 
 double random_start_delay(const Instance& instance, const PriorityOrder& order, Random& random) {
   const std::size_t other = order[random.below(order.size())];
-  return random.unit() * lower_bound(instance.robot(other), instance.options());
+  const Itinerary& itinerary = instance.itinerary(other);
+  const std::vector<Body> bodies = instance.views(other).bodies(itinerary.goals.size());
+  return random.unit() * lower_bound(itinerary, bodies);
 }
 
 OrderSequence::OrderSequence(PlanOptions::Reordering reordering, PriorityOrder first, Random& random)

@@ -10,7 +10,7 @@
 #include <set>
 #include <vector>
 
-#include "core/instance/instance.h"
+#include "core/compile/instance.h"
 #include "core/prioritized/lattice_steps.h"
 #include "core/prioritized/plan_state.h"
 #include "core/prioritized/progress_report.h"
@@ -25,14 +25,14 @@ using PriorityOrder = std::vector<std::size_t>;
 /// Where a robot ranks that takes so many seconds to its last goal, shortest first: by that time, but a
 /// faster robot counts as only slightly nearer, and a heavy one (Robot::weight) as so many times nearer
 /// (Smith's rule, 1956).
-double rank_by_time(const Robot& robot, double seconds);
+double rank_by_time(const Itinerary& itinerary, double seconds);
 
 /// Returns the first order of these robots (ascending, with goals), by the options' priority: by their ranks
 /// on straight lines to their goals, as listed, or at random. Shortest first with a horizon, the robot with
 /// the oldest goal comes first, so that nobody is passed over for ever, and those that have arrived come
 /// last, so that they make way. Ties keep the order of the list.
 PriorityOrder initial_order(const Instance& instance, std::vector<std::size_t> robots, Random& random);
-PriorityOrder initial_order(const std::vector<Robot>& all, const PlanOptions& options,
+PriorityOrder initial_order(const std::vector<Itinerary>& all, const PlanOptions& options,
                             std::vector<std::size_t> robots, Random& random);
 
 /// Returns a start delay that may give other robots time to get out of the way, seconds: uniform up to the

@@ -78,8 +78,8 @@ class SafePlanner {
   /// others.
   void sort_by_distance() {
     const auto distance = [&](std::size_t robot) {
-      const Robot& r = state_.instance().robot(robot);
-      return (r.goal->position - r.committed_end().position).norm();
+      const Itinerary& itinerary = state_.instance().itinerary(robot);
+      return (itinerary.last_goal().position - itinerary.pose.position).norm();
     };
     std::stable_sort(staying_.begin(), staying_.end(),
                      [&](std::size_t a, std::size_t b) { return distance(a) < distance(b); });
@@ -150,7 +150,7 @@ class SafePlanner {
 Unplanned explain(PlanState& state, const SafePlan::Staying& staying, BlockingRobots& blocking) {
   const std::size_t robot = staying.robot;
   const Way& way = state.ways().way_to_goal(robot);
-  if (way.none()) return unplanned_without_way(robot, state.instance().motion(robot).wall_radius, way);
+  if (way.none()) return unplanned_without_way(robot, state.instance().body(robot).wall_radius, way);
   if (!staying.has_no_path) {
     return {robot, Reason::budget_exhausted, "The time budget ended before a way was found.", {}};
   }
@@ -209,7 +209,7 @@ PartialPlan explain(PlanState& state, const SafePlan& plan, const StopCondition&
   BlockingRobots blocking(state, stop);
   PartialPlan partial;
   for (const SafePlan::Staying& staying : plan.staying) {
-    if (state.instance().robot(staying.robot).is_idle()) continue;  // it need not move
+    if (state.instance().itinerary(staying.robot).is_idle) continue;  // it need not move
     partial.unplanned.push_back(explain(state, staying, blocking));
   }
   partial.cut_off = plan.cut_off || (!plan.staying.empty() && stop.met());

@@ -57,7 +57,7 @@ SearchResult PlanState::plan_to(std::size_t robot, std::vector<Goal> goals, cons
     SearchSpace space(instance_, robot, std::move(itinerary), stop);
     if (!space.finished()) return {std::nullopt, false, 0};
     SearchLimits within = limits;
-    within.bound = std::min(limits.bound, instance_.stages(robot).longest_plan());
+    within.bound = std::min(limits.bound, instance_.views(robot).longest_plan());
     return memory_.search().run(space, within, stop);
   });
   expansions_ += result.expansions;
@@ -94,7 +94,7 @@ SearchResult PlanState::search_until(double horizon, std::size_t robot, const Se
     SearchSpace* space = memory_.space_of(robot, stop);
     if (space == nullptr) return no_memory();
     SearchLimits within = limits;
-    within.bound = std::min(limits.bound, instance_.stages(robot).longest_plan());
+    within.bound = std::min(limits.bound, instance_.views(robot).longest_plan());
     within.horizon = horizon;
     return memory_.search().run(*space, within, stop);
   };
@@ -109,10 +109,11 @@ SearchResult PlanState::search_until(double horizon, std::size_t robot, const Se
 
 /// Whether the robot may rest at its goal from some time on: if not, a search need not be prepared.
 bool PlanState::goal_stays_free(std::size_t robot) const {
-  if (instance_.robot(robot).yields()) return true;
+  if (instance_.itinerary(robot).yields()) return true;
   const std::size_t at_rest = instance_.itinerary(robot).goals.size();
-  const Footprint footprint{robot, instance_.stages(robot)[at_rest].load.radius};
-  const auto safe = reservations_.table().safe_intervals(footprint, instance_.robot(robot).goal->position);
+  const Footprint footprint{robot, instance_.views(robot)[at_rest].body.radius};
+  const auto safe =
+      reservations_.table().safe_intervals(footprint, instance_.itinerary(robot).last_goal().position);
   return !safe.empty() && safe.back().end == kForever;
 }
 
@@ -129,7 +130,7 @@ SearchResult PlanState::search_whole_way(std::size_t robot, const SearchLimits& 
   EnclosureTest test(ways_, robot, stop);
   SearchLimits with_test = limits;
   with_test.no_path_test = &test;
-  with_test.bound = std::min(limits.bound, previous_service_end(instance_.robot(robot)) + kNoLater);
+  with_test.bound = std::min(limits.bound, instance_.itinerary(robot).previous_end + kNoLater);
   SearchResult result = search_until(kForever, robot, with_test, stop);
   if (!result.trajectory && with_test.bound < limits.bound) {
     with_test.bound = limits.bound;
@@ -144,11 +145,10 @@ SearchResult PlanState::search_whole_way(std::size_t robot, const SearchLimits& 
 std::vector<std::size_t> PlanState::arrived_without_plan(std::size_t except) const {
   std::vector<std::size_t> arrived;
   for (std::size_t other = 0; other < instance_.size(); ++other) {
-    const Robot& robot = instance_.robot(other);
-    if (other == except || !robot.goal || reservations_.trajectory(other) || reservations_.stays(other)) {
-      continue;
-    }
-    if (has_arrived(robot)) arrived.push_back(other);
+    const Itinerary& itinerary = instance_.itinerary(other);
+    const bool has_place = reservations_.trajectory(other) || reservations_.stays(other);
+    if (other == except || itinerary.is_parked() || has_place) continue;
+    if (has_arrived(itinerary)) arrived.push_back(other);
   }
   return arrived;
 }

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/instance/instance.h"
+#include "core/compile/instance.h"
 #include "core/model/trajectory.h"
 #include "core/prioritized/fleet_reservations.h"
 #include "core/prioritized/search_memory.h"

@@ -55,7 +55,7 @@ OrderingResult plan_each_once(PlanState& state, const PriorityOrder& order, cons
 
 bool differ_in_size(const Instance& instance, const PriorityOrder& order) {
   return std::any_of(order.begin(), order.end(), [&](std::size_t robot) {
-    return instance.motion(robot).pair_radius != instance.motion(order.front()).pair_radius;
+    return instance.body(robot).pair_radius != instance.body(order.front()).pair_radius;
   });
 }
 
@@ -83,7 +83,7 @@ class PrioritizedPlanning {
         stop_(time.first_part) {
     if (is_by_arrival()) order_by_arrival();
     const bool may_stop = state.instance().options().horizon && !order_.empty();
-    if (may_stop && state.instance().robot(order_.front()).goal_age > 0.0) {
+    if (may_stop && state.instance().itinerary(order_.front()).goal_age > 0.0) {
       state.set_whole_way_of(order_.front());
     }
   }

@@ -14,7 +14,7 @@ class ProgressReport {
   ProgressReport(const FleetReservations& reservations, Observer* observer)
       : reservations_(reservations), observer_(observer) {
     for (std::size_t robot = 0; robot < reservations.instance().size(); ++robot) {
-      if (!reservations.instance().robot(robot).goal) ++parked_;
+      if (reservations.instance().itinerary(robot).is_parked()) ++parked_;
     }
   }
 

@@ -107,7 +107,7 @@ class Repair {
         continue;
       }
       if (has_failed(robot, result)) {
-        if (state_.instance().robot(robot).yields()) cannot_make_way_[robot] = true;
+        if (state_.instance().itinerary(robot).yields()) cannot_make_way_[robot] = true;
         result = plan_failed(robot);
       }
       if (result.trajectory) {
@@ -206,9 +206,8 @@ class Repair {
   /// The cost of making way, about, seconds: there and back over a few radii, with two turns.
   double cost_of_making_way(std::size_t robot) const {
     constexpr double kRadii = 4.0;
-    const Motion& motion = state_.instance().motion(robot);
-    return motion.translation_time(kRadii * motion.pair_radius) +
-           2.0 * motion.rotation_time(0.0, std::numbers::pi);
+    const Body& body = state_.instance().body(robot);
+    return body.translation_time(kRadii * body.pair_radius) + 2.0 * body.rotation_time(0.0, std::numbers::pi);
   }
 
   /// Whether robots that yield may be what keeps this one from its goals, or makes it late.
@@ -252,7 +251,7 @@ class Repair {
     reservations_.follow(robot, std::move(*result.trajectory));
     for (const std::size_t other : asked) {
       if (!reservations_.trajectory(other)) continue;
-      if (state_.instance().robot(other).is_idle()) rank_[other] = ++lowest_rank_;
+      if (state_.instance().itinerary(other).is_idle) rank_[other] = ++lowest_rank_;
       postpone(other);
     }
     return true;
@@ -263,7 +262,7 @@ class Repair {
   bool comes_after(std::size_t robot, const std::vector<std::size_t>& others, double most_cost) {
     std::vector<std::pair<std::size_t, Trajectory>> before;
     for (const std::size_t other : others) {
-      if (!reservations_.trajectory(other) || state_.instance().robot(other).is_idle()) continue;
+      if (!reservations_.trajectory(other) || state_.instance().itinerary(other).is_idle) continue;
       SearchResult leaving = plan_making_way(state_, other, robot, quick_search_of(other), stop_);
       if (!leaving.trajectory) continue;
       before.emplace_back(other, *reservations_.trajectory(other));
@@ -303,11 +302,11 @@ class Repair {
   /// Plans a robot among fewer others; see repair_all(). Smaller robots are ignored before larger ones, as
   /// they find another path more easily.
   SearchResult plan_among_fewer(std::size_t robot) {
-    const double radius = state_.instance().motion(robot).pair_radius;
+    const double radius = state_.instance().body(robot).pair_radius;
     const auto is_lower = [&](std::size_t other) { return rank_[other] > rank_[robot]; };
     const auto lower = planned_robots(is_lower);
     const auto lower_or_smaller = planned_robots([&](std::size_t other) {
-      return is_lower(other) || state_.instance().motion(other).pair_radius < radius;
+      return is_lower(other) || state_.instance().body(other).pair_radius < radius;
     });
     const auto all = planned_robots([](std::size_t) { return true; });
     if (!lower.empty()) {
@@ -357,7 +356,7 @@ class Repair {
     for (const std::size_t other : reservations_.robots_crossing_place(robot)) {
       if (reservations_.trajectory(other)) postpone(other);
     }
-    if (state_.instance().robot(robot).is_idle()) return;  // it need not move
+    if (state_.instance().itinerary(robot).is_idle) return;  // it need not move
     const bool others_may_move = result_.hopeless.size() < result_.given_up.size();
     if (failures_[robot] <= kMaxFailuresOfRobot && !others_may_move) result_.hopeless.push_back(robot);
     result_.given_up.push_back(robot);

@@ -9,7 +9,7 @@
 #include <new>
 #include <vector>
 
-#include "core/instance/instance.h"
+#include "core/compile/instance.h"
 #include "core/reservation/reservation_table.h"
 #include "core/runtime/memory_account.h"
 #include "core/runtime/stop_condition.h"

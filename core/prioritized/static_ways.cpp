@@ -97,7 +97,7 @@ Way StaticWays::way_off_lattice(std::size_t robot, const StopCondition& stop) co
   if (enclosure.find(kOffLatticeSteps).answer == Enclosure::Answer::closed)
     return {Way::Kind::closed, {}, {}};
   const double limit =
-      2.0 * instance_.motion(robot).wall_radius + kWidestCells * instance_.lattice(robot).spacing();
+      2.0 * instance_.body(robot).wall_radius + kWidestCells * instance_.lattice(robot).spacing();
   return {Way::Kind::not_on_lattice, {}, enclosure.widest_way(limit, kOffLatticeSteps)};
 }
 
@@ -125,7 +125,7 @@ bool StaticWays::takes_too_long(std::size_t robot, const StopCondition& stop) {
   return memory_.within_memory(false, [&] {
     SearchSpace* space = memory_.space_of(robot, stop);
     const auto end = space != nullptr ? estimated_end(*space, stop) : std::nullopt;
-    return end && *end >= instance_.stages(robot).longest_plan();
+    return end && *end >= instance_.views(robot).longest_plan();
   });
 }
 

@@ -14,9 +14,9 @@
 #include <variant>
 #include <vector>
 
+#include "core/compile/instance.h"
 #include "core/geometry/position.h"
 #include "core/geometry/tolerance.h"
-#include "core/instance/instance.h"
 
 namespace fleetplan::core {
 namespace {
@@ -60,13 +60,13 @@ class DiskIndex {
 
 DiskIndex::DiskIndex(const Instance& instance, At at) : instance_(instance), at_(at), size_(0.0) {
   for (std::size_t i = 0; i < instance.size(); ++i) {
-    size_ = std::max(size_, 2.0 * instance.stages(i).largest_disk().pair_radius);
+    size_ = std::max(size_, 2.0 * instance.views(i).largest_disk().pair_radius);
   }
 }
 
 double DiskIndex::radius(std::size_t robot, At at) const {
   const std::size_t stage = at == At::start ? 0 : instance_.itinerary(robot).goals.size();
-  return instance_.stages(robot)[stage].motion.pair_radius;
+  return instance_.views(robot)[stage].body.pair_radius;
 }
 
 std::int64_t DiskIndex::bucket(double coordinate) const {
@@ -116,12 +116,12 @@ class Triage {
   std::vector<std::optional<Unplanned>> run() {
     for (std::size_t i = 0; i < instance_.size(); ++i) {
       starts_.add(i, place(i));
-      if (instance_.robot(i).goal && !instance_.robot(i).is_idle())
-        goals_.add(i, instance_.robot(i).goal->position);
-      if (instance_.robot(i).invalid) {
+      const Itinerary& itinerary = instance_.itinerary(i);
+      if (!itinerary.is_parked() && !itinerary.is_idle) goals_.add(i, itinerary.last_goal().position);
+      if (itinerary.is_invalid) {
         unplanned_[i] = unplanned_invalid(i);
         stay(i);
-      } else if (!instance_.robot(i).goal || (instance_.robot(i).is_idle() && !may_leave(i))) {
+      } else if (itinerary.is_parked() || (itinerary.is_idle && !may_leave(i))) {
         stay(i);
       }
     }
@@ -136,7 +136,7 @@ class Triage {
   template <class Check>
   void for_each_robot(Check&& check) {
     for (std::size_t i = 0; i < instance_.size() && !stop_.met(); ++i) {
-      if (!stays_[i] && !is_kept(i) && !instance_.robot(i).is_idle()) check(i);
+      if (!stays_[i] && !is_kept(i) && !instance_.itinerary(i).is_idle) check(i);
     }
   }
   bool may_leave(std::size_t robot) {
@@ -161,7 +161,7 @@ class Triage {
   std::vector<std::size_t> overlapping_at_goal(const DiskIndex& index, std::size_t i,
                                                Condition&& condition) const {
     std::vector<std::size_t> found =
-        index.overlapping(i, DiskIndex::At::goal, instance_.robot(i).goal->position);
+        index.overlapping(i, DiskIndex::At::goal, instance_.itinerary(i).last_goal().position);
     std::erase_if(found, [&](std::size_t j) { return !condition(j); });
     return found;
   }
@@ -186,9 +186,9 @@ class Triage {
     // If the inflated goals of two robots overlap, the one with a plan is planned, or the first one in the
     // list.
     // A robot that yields leaves its last goal again.
-    if (instance_.robot(i).yields()) return;
+    if (instance_.itinerary(i).yields()) return;
     auto others = overlapping_at_goal(goals_, i, [&](std::size_t j) {
-      return (j < i || is_kept(j)) && !stays_[j] && !instance_.robot(j).yields();
+      return (j < i || is_kept(j)) && !stays_[j] && !instance_.itinerary(j).yields();
     });
     if (others.empty()) return;
     give_up(i, Reason::goal_blocked, "The inflated robot overlaps another one's goal at its goal.",
@@ -208,14 +208,14 @@ class Triage {
   }
 
   void give_up_without_way(std::size_t i, const Way& way) {
-    unplanned_[i] = unplanned_without_way(i, instance_.motion(i).wall_radius, way);
+    unplanned_[i] = unplanned_without_way(i, instance_.body(i).wall_radius, way);
     stay(i);
   }
 
   /// Makes robots stay whose goal is occupied by a robot that stays, until nothing changes.
   void check_goals_occupied() {
     for (std::size_t i = 0; i < instance_.size(); ++i) {
-      if (!stays_[i] && !is_kept(i) && !instance_.robot(i).is_idle()) next_.insert(i);
+      if (!stays_[i] && !is_kept(i) && !instance_.itinerary(i).is_idle) next_.insert(i);
     }
     while (!next_.empty() && !stop_.met()) {
       current_ = std::exchange(next_, {});

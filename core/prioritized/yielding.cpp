@@ -8,12 +8,12 @@
 namespace fleetplan::core {
 namespace {
 
-bool is_yielding(const Robot& robot) { return robot.yields() && !robot.invalid; }
+bool is_yielding(const Itinerary& itinerary) { return itinerary.yields() && !itinerary.is_invalid; }
 
 /// From when on a robot that yields has served its own goals by its trajectory, seconds; none if it does not.
 std::optional<double> done_from(const FleetReservations& reservations, std::size_t robot) {
-  const std::size_t own_goals = reservations.instance().robot(robot).own_goal_count();
   const Itinerary& itinerary = reservations.instance().itinerary(robot);
+  const std::size_t own_goals = itinerary.own_goal_count();
   if (itinerary.first_goal >= own_goals) return itinerary.t_begin;
   const std::vector<Visit>& visits = reservations.trajectory(robot)->visits;
   if (visits.empty() || visits.back().goal + 1 < own_goals) return std::nullopt;
@@ -23,8 +23,7 @@ std::optional<double> done_from(const FleetReservations& reservations, std::size
 }  // namespace
 
 bool any_yields(const Instance& instance) {
-  const std::vector<Robot>& robots = instance.problem().robots();
-  return std::any_of(robots.begin(), robots.end(), is_yielding);
+  return std::any_of(instance.itineraries().begin(), instance.itineraries().end(), is_yielding);
 }
 
 SearchResult plan_past_yielding(PlanState& state, std::size_t robot, const SearchLimits& limits,
@@ -33,7 +32,8 @@ SearchResult plan_past_yielding(PlanState& state, std::size_t robot, const Searc
   const Instance& instance = state.instance();
   std::vector<std::size_t> shortened;
   for (std::size_t other = 0; other < instance.size(); ++other) {
-    if (other == robot || !is_yielding(instance.robot(other)) || !reservations.trajectory(other)) continue;
+    if (other == robot || !is_yielding(instance.itinerary(other)) || !reservations.trajectory(other))
+      continue;
     const auto rests_from = done_from(reservations, other);
     if (!rests_from) continue;
     reservations.shorten(other, *rests_from + instance.options().start_safe_interval);
@@ -62,7 +62,7 @@ SearchResult plan_making_way(PlanState& state, std::size_t robot, std::size_t ot
 }
 
 bool makes_way(const FleetReservations& reservations, std::size_t robot) {
-  if (!reservations.instance().robot(robot).yields() || !reservations.trajectory(robot)) return false;
+  if (!reservations.instance().itinerary(robot).yields() || !reservations.trajectory(robot)) return false;
   const std::vector<TimedMove>& moves = reservations.trajectory(robot)->moves;
   const auto done = done_from(reservations, robot);
   return done && !moves.empty() && moves.back().t_start >= *done;

@@ -7,8 +7,9 @@
 
 #include "core/bounds/lower_bound.h"
 #include "core/commitments/unavoidable_collisions.h"
+#include "core/compile/instance.h"
 #include "core/geometry/segment.h"
-#include "core/instance/instance.h"
+#include "core/model/body.h"
 #include "core/model/itinerary.h"
 #include "core/model/loads.h"
 #include "core/prioritized/fleet_reservations.h"
@@ -187,7 +188,7 @@ class PlansThatHold {
       if (may_move(i)) movers.push_back(i);
     }
     Random random(options_.seed);  // as in planning, so that the order is the same
-    const PriorityOrder order = initial_order(robots_, options_, std::move(movers), random);
+    const PriorityOrder order = initial_order(itineraries_of(robots_), options_, std::move(movers), random);
     std::vector<std::size_t> ranks(robots_.size(), order.size());
     for (std::size_t k = 0; k < order.size(); ++k) ranks[order[k]] = k;
     return ranks;
@@ -218,10 +219,11 @@ KeptPlans keep_if_others_stay(const Problem& problem, const PlanOptions& options
 
 std::size_t follow_kept_plans(FleetReservations& reservations, const KeptPlans& previous,
                               const KeptPlans& certain) {
+  const std::vector<Robot>& robots = reservations.instance().problem().robots();
   std::size_t followed = 0;
   for (std::size_t robot = 0; robot < previous.kept.size(); ++robot) {
     if (!previous.kept[robot]) continue;
-    Trajectory trajectory = previous_trajectory(reservations.instance().robot(robot));
+    Trajectory trajectory = previous_trajectory(robots[robot]);
     // The checker has accepted all kept plans together, and against what all robots are committed to.
     const auto is_kept = [&](std::size_t other) { return bool(previous.kept[other]); };
     const std::vector<std::size_t> others = reservations.conflicting_robots(robot, trajectory);
@@ -233,9 +235,10 @@ std::size_t follow_kept_plans(FleetReservations& reservations, const KeptPlans& 
 }
 
 void finish_with_kept_plans(FleetReservations& reservations, const std::vector<std::size_t>& movers) {
+  const std::vector<Robot>& robots = reservations.instance().problem().robots();
   FleetReservations::Snapshot wanted = reservations.snapshot();
   for (const std::size_t robot : movers) {
-    wanted.trajectories[robot] = previous_trajectory(reservations.instance().robot(robot));
+    wanted.trajectories[robot] = previous_trajectory(robots[robot]);
   }
   reservations.set_without_table(std::move(wanted));
 }
@@ -250,6 +253,11 @@ KeptPlans plans_that_are_safe(const Problem& problem, const PlanOptions& options
   } catch (const std::bad_alloc&) {
     return {};
   }
+}
+
+double bound_of(const Robot& robot, const PlanOptions& options) {
+  const Itinerary itinerary = itinerary_of(robot);
+  return lower_bound(itinerary, bodies_of(robot, options, itinerary.first_goal));
 }
 
 }  // namespace
@@ -271,7 +279,7 @@ Plan plan_without_search(const Problem& problem, const PlanOptions& options, con
     }
     RobotPlan kept = previous_plan(index, robot);
     kept.visits = visits_of(robot, kept.actions);
-    kept.lower_bound = robot.goal ? std::min(kept.cost, lower_bound(robot, options)) : kept.cost;
+    kept.lower_bound = robot.goal ? std::min(kept.cost, bound_of(robot, options)) : kept.cost;
     planned[index] = robot.goal.has_value();
     plan.objectives.flowtime += kept.cost;
     plan.objectives.makespan = std::max(plan.objectives.makespan, kept.cost);
@@ -279,7 +287,8 @@ Plan plan_without_search(const Problem& problem, const PlanOptions& options, con
     plan.lower_bound.makespan = std::max(plan.lower_bound.makespan, kept.lower_bound);
     plan.plans.push_back(std::move(kept));
   }
-  UnavoidableCollisions found = unavoidable_collisions(problem, planned, stop);
+  UnavoidableCollisions found =
+      unavoidable_collisions(problem, itineraries_of(problem.robots()), planned, stop);
   plan.unavoidable = std::move(found.collisions);
   plan.unavoidable_known = found.finished;
   plan.deterministic = false;

@@ -172,7 +172,7 @@ class ReservationTable::FixedDistance {
     }
     if (!stays_) return distance;
     distance = std::min(distance, radius_ + other.radius - kContactTolerance);
-    const FixedReservations::Robot& mine = fixed_.robot(robot_);
+    const FixedReservations::Committed& mine = fixed_.robot(robot_);
     const bool is_at_start = mine.start == mine.committed_end && radius_ == mine.radius_at_start;
     if (!other.from_start || !is_at_start) return distance;
     const Position& their_start = fixed_.robot(other.index).start;

@@ -91,8 +91,8 @@ class PathEnd {
 /// Discards arrivals: those that others dominate and, in the quick pass, those that are hardly better.
 class DominatedArrivals {
  public:
-  DominatedArrivals(const DominanceTable& table, const Goals& goals, const Motion& motion)
-      : table_(table), goals_(goals), motion_(motion) {}
+  DominatedArrivals(const DominanceTable& table, const Goals& goals, const Body& body)
+      : table_(table), goals_(goals), body_(body) {}
 
   void begin(Pass pass, bool uses_slack) {
     pass_ = pass;
@@ -106,7 +106,7 @@ class DominatedArrivals {
     // free yet or has to wait. An earlier arrival would gain nothing.
     const bool waiting = pass_ == Pass::quick && f <= goals_.release();
     const bool dominated = waiting || table_.dominated_from(interval, heading) <= arrival + kSameTime ||
-                           (motion_.wait_before_move > 0.0 && table_.contains(interval, arrival, heading));
+                           (body_.wait_before_move > 0.0 && table_.contains(interval, arrival, heading));
     may_be_kept_ = may_be_kept_ || (dominated && (waiting || uses_slack_));
     return dominated;
   }
@@ -127,7 +127,7 @@ class DominatedArrivals {
  private:
   const DominanceTable& table_;
   const Goals& goals_;
-  const Motion& motion_;
+  const Body& body_;
   Pass pass_ = Pass::quick;
   bool uses_slack_ = false;
   bool may_be_kept_ = false;
@@ -143,14 +143,14 @@ class Search {
   Search(const ReservationTable& table, SearchSpace& space, const SearchLimits& limits,
          const StopCondition& stop, SearchState state)
       : space_(space),
-        motion_(space.vertices().motion()),
+        body_(space.vertices().body()),
         limits_(limits),
         stop_(stop),
-        has_slow_queries_(table.is_costly() || motion_.linear_inertia.is_limited),
+        has_slow_queries_(table.is_costly() || body_.linear_inertia.is_limited),
         state_(std::move(state)),
         goals_(space, limits.horizon, state_),
         successors_(table, space, goals_, state_, stop),
-        dominated_(state_.dominance, goals_, motion_),
+        dominated_(state_.dominance, goals_, body_),
         end_(limits),
         next_check_(limits.no_path_test == nullptr
                         ? limits.max_expansions
@@ -177,7 +177,7 @@ class Search {
   Evaluation evaluate(PlaceId id, int interval, double arrival, double heading) const;
 
   SearchSpace& space_;
-  const Motion& motion_;
+  const Body& body_;
   const SearchLimits& limits_;
   const StopCondition& stop_;
   const bool has_slow_queries_;  // of the reservations
@@ -238,7 +238,7 @@ bool Search::begin(Pass pass) {
   state_.clear(static_cast<std::size_t>(space_.vertex_count()));
   const double slack = uses_slack ? limits_.dominance_slack * space_.vertices().lattice().spacing() : 0.0;
   // With the slowest rotations, an arrival that dominates does so in every zone.
-  state_.dominance.reset(space_.vertices().times().slowest_motion(), motion_.translation_time(slack));
+  state_.dominance.reset(space_.vertices().times().slowest_body(), body_.translation_time(slack));
   stopped_ = !goals_.begin(stop_);
   if (stopped_ || !goals_.end_at(successors_.goal_of(goals_.last_stage()))) return false;
   return goals_.has_horizon() || can_serve_all();
@@ -392,8 +392,7 @@ LabelId Search::add_label(const Label& label) {
 /// goal if that has none; without other robots.
 inline Evaluation Search::evaluate(PlaceId id, int interval, double arrival, double heading) const {
   const Place& place = state_.places[id];
-  const double h =
-      place.any_heading ? place.estimate.seconds : place.estimate.with_rotation(heading, motion_);
+  const double h = place.any_heading ? place.estimate.seconds : place.estimate.with_rotation(heading, body_);
   // An arrival at the goal that is within the suboptimality bound is popped before other entries. Without
   // this, many entries could have the same f as long as the goal is not free.
   if (goals_.is_end(id, interval)) {

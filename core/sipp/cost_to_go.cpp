@@ -64,7 +64,7 @@ void TimesFromStart::open(int vertex, float seconds) {
 }
 
 double TimesFromStart::to_goal(int vertex) const {
-  return vertices_.motion().cruise_time((vertices_.position(vertex) - goal_position_).norm());
+  return vertices_.body().cruise_time((vertices_.position(vertex) - goal_position_).norm());
 }
 
 /// No way to the goal is faster than the one found, so a vertex off it is at least so far from the start that
@@ -77,7 +77,7 @@ double TimesFromStart::at_least(int vertex) {
 class CostToGo::BackwardSearch {
  public:
   BackwardSearch(const Vertices& vertices, std::size_t goal)
-      : motion_(vertices.motion()),
+      : body_(vertices.body()),
         vertices_(vertices),
         goal_(vertices.goals()[goal].vertex),
         goal_heading_(vertices.goals()[goal].heading),
@@ -86,14 +86,14 @@ class CostToGo::BackwardSearch {
         shortening_(vertices.any_angle() ? 1.0 - kShortened * (1.0 - vertices.lattice().least_straight())
                                          : 1.0),
         nodes_(static_cast<std::size_t>(vertices.count())),
-        reverse_seconds_(motion_.may_reverse ? static_cast<std::size_t>(vertices.count()) : 0),
+        reverse_seconds_(body_.may_reverse ? static_cast<std::size_t>(vertices.count()) : 0),
         first_start_vertex_(vertices.count()) {
     if (start_ >= 0) from_start_.emplace(vertices, start_, goal_);
   }
 
   void replace_start() {
     nodes_.grow(static_cast<std::size_t>(vertices_.count()));
-    if (motion_.may_reverse) reverse_seconds_.grow(static_cast<std::size_t>(vertices_.count()));
+    if (body_.may_reverse) reverse_seconds_.grow(static_cast<std::size_t>(vertices_.count()));
     for (int vertex = first_start_vertex_; vertex < vertices_.count(); ++vertex) {
       node(vertex) = Node();
       set_none(vertex);
@@ -175,7 +175,7 @@ class CostToGo::BackwardSearch {
   /// Of the first translation from a vertex that was reached, forwards.
   double heading(int vertex) { return vertices_.between(vertex, node(vertex).next).heading; }
   double reverse_seconds(int vertex) {
-    return motion_.may_reverse ? reverse_seconds_[static_cast<std::size_t>(vertex)] : kForever;
+    return body_.may_reverse ? reverse_seconds_[static_cast<std::size_t>(vertex)] : kForever;
   }
   /// The cost to go from a vertex that was reached, forwards or backwards, whichever is less; seconds.
   double least(const Node& node, int vertex) { return std::min(node.seconds, reverse_seconds(vertex)); }
@@ -200,7 +200,7 @@ class CostToGo::BackwardSearch {
   void close(int vertex);
   void expand_best();
 
-  const Motion& motion_;
+  const Body& body_;
   const Vertices& vertices_;
   const int goal_;
   const std::optional<double> goal_heading_;
@@ -283,7 +283,7 @@ void CostToGo::BackwardSearch::begin(const StopCondition& stop) {
 /// About the seconds that translations from the start to a vertex take, at least.
 double CostToGo::BackwardSearch::seconds_from_start(int vertex) {
   if (!from_start_) return 0.0;
-  const double straight = motion_.cruise_time((vertices_.position(vertex) - start_position_).norm());
+  const double straight = body_.cruise_time((vertices_.position(vertex) - start_position_).norm());
   return std::max(straight, shortening_ * from_start_->at_least(vertex));
 }
 
@@ -292,21 +292,20 @@ CostToGo::Estimate CostToGo::BackwardSearch::via(int vertex, int next) {
   const Displacement d = vertices_.between(vertex, next);
   Estimate estimate;
   estimate.heading = d.heading;
-  estimate.seconds = translation_time(vertex, next, d.length) + motion_.wait_before_move;
-  if (motion_.may_reverse) {
+  estimate.seconds = translation_time(vertex, next, d.length) + body_.wait_before_move;
+  if (body_.may_reverse) {
     add_onward(estimate, next, d.length);
     return estimate;
   }
   if (next != goal_) {
     const double then = heading(next);
-    estimate.seconds += node(next).seconds + motion_.rotation_time(estimate.heading, then);
+    estimate.seconds += node(next).seconds + body_.rotation_time(estimate.heading, then);
     const bool continues_straight = angle_between(estimate.heading, then) <= kSameHeading;
     if (continues_straight) {  // both are one translation
-      estimate.seconds -=
-          motion_.wait_before_move + motion_.linear_inertia.loss(d.length, motion_.linear_speed);
+      estimate.seconds -= body_.wait_before_move + body_.linear_inertia.loss(d.length, body_.linear_speed);
     }
   } else if (goal_heading_) {
-    estimate.seconds += motion_.rotation_time(estimate.heading, *goal_heading_);
+    estimate.seconds += body_.rotation_time(estimate.heading, *goal_heading_);
   }
   return estimate;
 }
@@ -318,15 +317,15 @@ void CostToGo::BackwardSearch::add_onward(Estimate& estimate, int next, double l
   if (next == goal_) {
     estimate.reverse_seconds = translation;
     if (!goal_heading_) return;
-    estimate.seconds += motion_.rotation_time(estimate.heading, *goal_heading_);
-    estimate.reverse_seconds += motion_.rotation_time(back, *goal_heading_);
+    estimate.seconds += body_.rotation_time(estimate.heading, *goal_heading_);
+    estimate.reverse_seconds += body_.rotation_time(back, *goal_heading_);
     return;
   }
   const Node& n = node(next);
   const Estimate onward{n.seconds, heading(next), false, reverse_seconds(next)};
-  estimate.seconds = translation + onward.with_rotation(estimate.heading, motion_);
-  estimate.reverse_seconds = translation + onward.with_rotation(back, motion_);
-  const double once = motion_.wait_before_move + motion_.linear_inertia.loss(length, motion_.linear_speed);
+  estimate.seconds = translation + onward.with_rotation(estimate.heading, body_);
+  estimate.reverse_seconds = translation + onward.with_rotation(back, body_);
+  const double once = body_.wait_before_move + body_.linear_inertia.loss(length, body_.linear_speed);
   if (once <= 0.0 || angle_between(estimate.heading, onward.heading) > kSameHeading) return;
   // A translation that goes on is one.
   estimate.seconds = std::min(estimate.seconds, translation + onward.seconds - once);
@@ -337,7 +336,7 @@ void CostToGo::BackwardSearch::add_onward(Estimate& estimate, int next, double l
 void CostToGo::BackwardSearch::set(Node& n, int vertex, int next, const Estimate& estimate) {
   n.seconds = estimate.seconds;
   n.next = next;
-  if (motion_.may_reverse) reverse_seconds_[static_cast<std::size_t>(vertex)] = estimate.reverse_seconds;
+  if (body_.may_reverse) reverse_seconds_[static_cast<std::size_t>(vertex)] = estimate.reverse_seconds;
 }
 
 bool CostToGo::BackwardSearch::goal_in_sight(int vertex) {
@@ -390,7 +389,7 @@ void CostToGo::BackwardSearch::expand_best() {
 bool CostToGo::BackwardSearch::is_slowed(int vertex, int next) const {
   if (!vertices_.times().limit_speeds()) return false;
   const double length = vertices_.between(vertex, next).length;
-  return translation_time(vertex, next, length) > motion_.translation_time(length) + kSameTime;
+  return translation_time(vertex, next, length) > body_.translation_time(length) + kSameTime;
 }
 
 /// Relaxes the neighbours of a vertex with a first translation straight to `next`. Past slow zones, the one

@@ -11,7 +11,7 @@
 
 #include "core/geometry/position.h"
 #include "core/geometry/segment.h"
-#include "core/model/motion.h"
+#include "core/model/body.h"
 #include "core/runtime/arrays.h"
 #include "core/runtime/stop_condition.h"
 
@@ -79,10 +79,10 @@ class CostToGo {
     double reverse_seconds = kForever;
 
     double least() const { return std::min(seconds, reverse_seconds); }
-    double with_rotation(double from_heading, const Motion& motion) const {
-      const double ahead = seconds + motion.rotation_time(from_heading, heading);
+    double with_rotation(double from_heading, const Body& body) const {
+      const double ahead = seconds + body.rotation_time(from_heading, heading);
       if (reverse_seconds == kForever) return ahead;
-      return std::min(ahead, reverse_seconds + motion.rotation_time(from_heading, opposite_heading(heading)));
+      return std::min(ahead, reverse_seconds + body.rotation_time(from_heading, opposite_heading(heading)));
     }
   };
 

@@ -19,14 +19,14 @@ constexpr double kClearlyBefore = 1e-3;
 
 /// Estimates the way from one goal to the next one, seconds. A heading that is free is the best one.
 double estimated_leg(SearchSpace& space, std::size_t from, const StopCondition& stop) {
-  const Motion& motion = space.vertices().motion();
+  const Body& body = space.vertices().body();
   const Vertices::GoalPose& here = space.vertices(from + 1).goals()[from];
   const Vertices::GoalPose& next = space.goal_pose(from + 1);
   if (here.vertex == next.vertex) {
-    return here.heading && next.heading ? motion.rotation_time(*here.heading, *next.heading) : 0.0;
+    return here.heading && next.heading ? body.rotation_time(*here.heading, *next.heading) : 0.0;
   }
   const CostToGo::Estimate estimate = space.cost_to_go(from + 1).from(here.vertex, stop);
-  return here.heading ? estimate.with_rotation(*here.heading, motion) : estimate.least();
+  return here.heading ? estimate.with_rotation(*here.heading, body) : estimate.least();
 }
 
 /// A stage with the load that the robot carries in it.
@@ -277,7 +277,7 @@ void PathToTrajectory::stop_at_rest(const Label& first, const Label& last) {
 double PathToTrajectory::time_left(const Label& label) const {
   const Place& place = state_.places[label.place];
   return place.any_heading ? place.estimate.seconds
-                           : place.estimate.with_rotation(label.heading, space_.vertices().motion());
+                           : place.estimate.with_rotation(label.heading, space_.vertices().body());
 }
 
 /// Estimates when a robot that rests in this label until `t` ends its last service, seconds.

@@ -9,8 +9,8 @@
 #include "core/geometry/position.h"
 #include "core/geometry/segment.h"
 #include "core/geometry/speed_profile.h"
+#include "core/model/body.h"
 #include "core/model/drive_zones.h"
-#include "core/model/motion.h"
 #include "core/model/trajectory.h"
 #include "core/reservation/reservation_table.h"
 
@@ -21,53 +21,53 @@ namespace fleetplan::core {
 class MoveTimes {
  public:
   /// `zones`: null if there are none. Both outlive this object.
-  MoveTimes(const Motion& motion, const DriveZones* zones)
-      : motion_(motion),
-        slowest_motion_(motion),
+  MoveTimes(const Body& body, const DriveZones* zones)
+      : body_(body),
+        slowest_body_(body),
         zones_(zones != nullptr && zones->limit_speeds() ? zones : nullptr) {
-    if (zones_ != nullptr) slowest_motion_.angular_speed = zones_->least_angular_speed();
+    if (zones_ != nullptr) slowest_body_.angular_speed = zones_->least_angular_speed();
   }
 
-  const Motion& motion() const { return motion_; }
+  const Body& body() const { return body_; }
   /// The motion with the least angular speed of all zones.
-  const Motion& slowest_motion() const { return slowest_motion_; }
+  const Body& slowest_body() const { return slowest_body_; }
   /// Whether the robot has to be slower in some places.
   bool limit_speeds() const { return zones_ != nullptr; }
   /// Whether the speed may change during a straight move.
-  bool have_parts() const { return limit_speeds() || motion_.linear_inertia.is_limited; }
+  bool have_parts() const { return limit_speeds() || body_.linear_inertia.is_limited; }
 
   /// Seconds of a straight move of this length, from rest to rest. `path` returns its Segment, which only
   /// zones ask for.
   template <class Path>
   double translation_time(double length, const Path& path) const {
-    if (!limit_speeds()) return motion_.translation_time(length);
+    if (!limit_speeds()) return body_.translation_time(length);
     const Segment& segment = path();
     return zones_->translation_time(segment.from, segment.to);
   }
   /// Seconds to turn at a position.
   double rotation_time(const Position& position, double from, double to) const {
-    if (!limit_speeds()) return motion_.rotation_time(from, to);
-    return motion_.angular_inertia.time(angle_between(from, to), zones_->angular_speed_at(position));
+    if (!limit_speeds()) return body_.rotation_time(from, to);
+    return body_.angular_inertia.time(angle_between(from, to), zones_->angular_speed_at(position));
   }
   /// The greatest linear speed at a position, metres per second.
   double linear_speed(const Position& position) const {
-    return limit_speeds() ? zones_->linear_speed_at(position) : motion_.linear_speed;
+    return limit_speeds() ? zones_->linear_speed_at(position) : body_.linear_speed;
   }
 
   /// The pieces of a straight move from rest to rest, seconds from its beginning: between the borders of
   /// speed zones.
   std::vector<DriveZones::Piece> pieces(const Segment& path) const {
     if (limit_speeds()) return zones_->pieces(path.from, path.to);
-    DriveZones::Piece piece{path, motion_.linear_speed, 0.0, motion_.translation_time(path.length())};
-    if (motion_.linear_inertia.is_limited) {
-      piece.profile = fastest_profile(path.length(), motion_.linear_speed, motion_.linear_inertia);
+    DriveZones::Piece piece{path, body_.linear_speed, 0.0, body_.translation_time(path.length())};
+    if (body_.linear_inertia.is_limited) {
+      piece.profile = fastest_profile(path.length(), body_.linear_speed, body_.linear_inertia);
     }
     return {piece};
   }
 
  private:
-  const Motion& motion_;
-  Motion slowest_motion_;
+  const Body& body_;
+  Body slowest_body_;
   const DriveZones* zones_;  // null if they limit no speeds
 };
 

@@ -5,14 +5,14 @@
 #include <tuple>
 #include <utility>
 
-#include "core/instance/instance.h"
+#include "core/compile/instance.h"
 
 namespace fleetplan::core {
 
 SearchSpace::SearchSpace(const Instance& instance, std::size_t robot, const StopCondition& stop)
     : instance_(instance),
       robot_(robot),
-      stages_(&instance.stages(robot)),
+      views_(&instance.views(robot)),
       itinerary_(instance.itinerary(robot)),
       costs_to_go_(goal_count()) {
   find_goals(stop);
@@ -22,7 +22,7 @@ SearchSpace::SearchSpace(const Instance& instance, std::size_t robot, Itinerary 
                          const StopCondition& stop)
     : instance_(instance),
       robot_(robot),
-      stages_(&instance.stages(robot)),
+      views_(&instance.views(robot)),
       own_itinerary_(std::move(itinerary)),
       itinerary_(own_itinerary_),
       costs_to_go_(goal_count()) {
@@ -30,46 +30,44 @@ SearchSpace::SearchSpace(const Instance& instance, std::size_t robot, Itinerary 
 }
 
 void SearchSpace::find_goals(const StopCondition& stop) {
-  begins_in_goal_pose_ = !instance_.robot(robot_).committed.empty() && !itinerary_.goals.empty() &&
+  begins_in_goal_pose_ = itinerary_.is_committed && !itinerary_.is_parked() &&
                          is_in_pose(itinerary_.pose, itinerary_.goals.front());
   while (goals_at_start_ < goal_count() &&
          itinerary_.goals[goals_at_start_].position == itinerary_.pose.position) {
     ++goals_at_start_;
   }
-  views_.push_back({std::make_unique<Vertices>(instance_, robot_, itinerary_, 0, stop), 0});
-  if (changes_load() && finished()) add_views(stop);
+  vertices_.push_back({std::make_unique<Vertices>(instance_, robot_, itinerary_, 0, stop), 0});
+  if (changes_load() && finished()) add_vertices(stop);
   if (finished()) find_equal_goals();
 }
 
 SearchSpace::SearchSpace(const Instance& instance, std::size_t robot, const Goal& goal)
     : instance_(instance),
       robot_(robot),
-      stages_(&instance.stages(robot)),
+      views_(&instance.views(robot)),
       own_itinerary_{.committed = {}, .pose = instance.itinerary(robot).pose, .visited = {}, .goals = {goal}},
       itinerary_(own_itinerary_),
       first_equal_{0},
       costs_to_go_(1) {
-  views_.push_back({std::make_unique<Vertices>(instance, robot, goal), 0});
+  vertices_.push_back({std::make_unique<Vertices>(instance, robot, goal), 0});
   cost_to_go(0);  // before there is a start
 }
 
 void SearchSpace::begin_at(std::size_t robot, bool any_heading) {
   robot_ = robot;
-  stages_ = &instance_.stages(robot);
+  views_ = &instance_.views(robot);
   any_heading_at_start_ = any_heading;
   own_itinerary_.pose = instance_.itinerary(robot).pose;
-  views_.front().vertices->replace_start(instance_, robot);
+  vertices_.front().vertices->replace_start(instance_, robot);
   cost_to_go(0).replace_start();
 }
 
-void SearchSpace::add_views(const StopCondition& stop) {
-  std::map<Load, std::size_t> view_of_load{{(*stages_)[0].load, 0}};
-  for (std::size_t stage = 0; stage <= goal_count(); ++stage) {
-    const auto [known, is_new] = view_of_load.emplace((*stages_)[stage].load, views_.size());
-    view_of_stage_.push_back(known->second);
-    if (!is_new) continue;
+void SearchSpace::add_vertices(const StopCondition& stop) {
+  for (std::size_t stage = 1; stage <= goal_count(); ++stage) {
+    if (views_->number(stage) < vertices_.size()) continue;
     const int first_vertex = vertex_count();
-    views_.push_back({std::make_unique<Vertices>(instance_, robot_, itinerary_, stage, stop), first_vertex});
+    vertices_.push_back(
+        {std::make_unique<Vertices>(instance_, robot_, itinerary_, stage, stop), first_vertex});
     if (!finished()) return;
   }
 }

@@ -6,10 +6,9 @@
 #include <memory>
 #include <vector>
 
+#include "core/compile/views.h"
 #include "core/geometry/segment.h"
-#include "core/instance/robot_stages.h"
 #include "core/model/itinerary.h"
-#include "core/model/robot.h"
 #include "core/runtime/stop_condition.h"
 #include "core/sipp/cost_to_go.h"
 #include "core/sipp/vertices.h"
@@ -34,7 +33,7 @@ class SearchSpace {
   SearchSpace(const SearchSpace&) = delete;
   SearchSpace& operator=(const SearchSpace&) = delete;
 
-  bool finished() const { return views_.back().vertices->finished(); }
+  bool finished() const { return vertices_.back().vertices->finished(); }
 
   /// The plan goes on from here, after the committed actions; seconds.
   double t_begin() const { return itinerary_.t_begin; }
@@ -53,13 +52,13 @@ class SearchSpace {
   bool all_goals_at_start() const { return goals_at_start_ == goal_count(); }
 
   /// In its first stage: on the way to the first goal that is left.
-  const Vertices& vertices() const { return *views_.front().vertices; }
+  const Vertices& vertices() const { return *vertices_.front().vertices; }
   /// In a stage: the robot has one view for each of its loads.
-  const Vertices& vertices(std::size_t stage) const { return *view(stage).vertices; }
+  const Vertices& vertices(std::size_t stage) const { return *numbered(stage).vertices; }
   /// Numbers of its vertices among those of all its views begin with this one in a stage.
-  int first_vertex(std::size_t stage) const { return view(stage).first_vertex; }
+  int first_vertex(std::size_t stage) const { return numbered(stage).first_vertex; }
   /// Vertices of all views.
-  int vertex_count() const { return views_.back().first_vertex + views_.back().vertices->count(); }
+  int vertex_count() const { return vertices_.back().first_vertex + vertices_.back().vertices->count(); }
 
   /// The goals that are left.
   std::size_t goal_count() const { return itinerary_.goals.size(); }
@@ -73,16 +72,16 @@ class SearchSpace {
     return stage == 0 ? vertices().start() : vertices(stage).goals()[stage - 1].vertex;
   }
 
-  bool changes_load() const { return stages_->changes_load(); }
+  bool changes_load() const { return views_->change(); }
   /// Whether it has another radius at rest at the last goal, after the service there.
   bool rests_with_other_radius() const {
     return changes_load() && wall_radius(goal_count()) != wall_radius(goal_count() - 1);
   }
   /// The radius to walls in a stage or, with goal_count(), at rest at the last goal; metres, inflation
   /// included.
-  double wall_radius(std::size_t stage) const { return (*stages_)[stage].motion.wall_radius; }
+  double wall_radius(std::size_t stage) const { return (*views_)[stage].body.wall_radius; }
   Footprint footprint(std::size_t stage) const {
-    return {robot_, (*stages_)[stage].load.radius, stage > goals_at_start_};
+    return {robot_, (*views_)[stage].body.radius, stage > goals_at_start_};
   }
 
   /// To the goal with this index in Vertices::goals(), created on first use. Equal goals share theirs.
@@ -92,27 +91,24 @@ class SearchSpace {
   std::size_t bytes() const;
 
  private:
-  /// The view of the static map with one load.
-  struct View {
+  /// The vertices of one view.
+  struct Numbered {
     std::unique_ptr<Vertices> vertices;
     int first_vertex = 0;
   };
 
-  const View& view(std::size_t stage) const {
-    return views_[view_of_stage_.empty() ? 0 : view_of_stage_[stage]];
-  }
+  const Numbered& numbered(std::size_t stage) const { return vertices_[views_->number(stage)]; }
   void find_goals(const StopCondition& stop);
-  void add_views(const StopCondition& stop);
+  void add_vertices(const StopCondition& stop);
   void find_equal_goals();
 
   const Instance& instance_;
   std::size_t robot_;
-  const RobotStages* stages_;
+  const Views* views_;
   Itinerary own_itinerary_;  // if it is not that of the instance
   const Itinerary& itinerary_;
   bool any_heading_at_start_ = false;
-  std::vector<View> views_;                 // one for each load
-  std::vector<std::size_t> view_of_stage_;  // empty if there is one view
+  std::vector<Numbered> vertices_;  // one for each view, by its number
   bool begins_in_goal_pose_ = false;
   std::size_t goals_at_start_ = 0;                      // the first so many, which need no move
   std::vector<std::size_t> first_equal_;                // by goal

@@ -12,7 +12,7 @@
 #include "core/geometry/position.h"
 #include "core/geometry/segment.h"
 #include "core/geometry/tolerance.h"
-#include "core/model/motion.h"
+#include "core/model/body.h"
 #include "core/runtime/arrays.h"
 #include "core/sipp/cost_to_go.h"
 
@@ -162,7 +162,7 @@ class DominanceTable {
   /// Removes all arrivals and intervals, for a search with this motion: the one with the least angular speed
   /// that the robot has anywhere, so that an arrival that dominates does so in every zone. `slack` > 0: an
   /// arrival also dominates others that precede it by less than `slack` seconds, whatever their heading.
-  void reset(const Motion& motion, double slack);
+  void reset(const Body& body, double slack);
 
   /// Intervals are numbered from 0. The count never decreases until reset().
   void set_interval_count(std::size_t count) { first_.resize(count, ArrivalId::none); }
@@ -175,7 +175,7 @@ class DominanceTable {
     double from = kForever;
     for (ArrivalId id = first_[interval]; id != ArrivalId::none;) {
       const Arrival& arrival = arrivals_[id];
-      const double ready = motion_->rotation_time(arrival.heading, heading) + motion_->wait_before_move;
+      const double ready = body_->rotation_time(arrival.heading, heading) + body_->wait_before_move;
       from = std::min(from, arrival.time + (slack_ > 0.0 ? -slack_ : ready));
       id = arrival.next;
     }
@@ -199,14 +199,14 @@ class DominanceTable {
     bool dominated;
   };
 
-  const Motion* motion_ = nullptr;
+  const Body* body_ = nullptr;
   double slack_ = 0.0;
   IndexedVector<ArrivalId> first_;  // by interval
   IndexedVector<Arrival, ArrivalId> arrivals_;
 };
 
-inline void DominanceTable::reset(const Motion& motion, double slack) {
-  motion_ = &motion;
+inline void DominanceTable::reset(const Body& body, double slack) {
+  body_ = &body;
   slack_ = slack;
   first_.clear();
   arrivals_.clear();
@@ -226,7 +226,7 @@ inline ArrivalId DominanceTable::add(int interval, double time, double heading) 
   ArrivalId* link = &first_[interval];
   while (*link != ArrivalId::none) {
     Arrival& arrival = arrivals_[*link];
-    const double ready = motion_->rotation_time(heading, arrival.heading) + motion_->wait_before_move;
+    const double ready = body_->rotation_time(heading, arrival.heading) + body_->wait_before_move;
     if (time + ready <= arrival.time) {
       arrival.dominated = true;
       *link = arrival.next;

@@ -11,11 +11,11 @@ namespace {
 
 /// The greatest linear speed of the robot in any stage, metres per second.
 double greatest_speed(const SearchSpace& space) {
-  double greatest = space.vertices().motion().linear_speed;
+  double greatest = space.vertices().body().linear_speed;
   if (!space.changes_load()) return greatest;
   // Bounded: the goals of one robot.
   for (std::size_t stage = 0; stage <= space.goal_count(); ++stage) {
-    greatest = std::max(greatest, space.vertices(stage).motion().linear_speed);
+    greatest = std::max(greatest, space.vertices(stage).body().linear_speed);
   }
   return greatest;
 }
@@ -29,11 +29,11 @@ Successors::Successors(const ReservationTable& table, SearchSpace& space, const 
       goals_(goals),
       state_(state),
       stop_(stop),
-      motion_(space.vertices().motion()),
+      body_(space.vertices().body()),
       vertices_(space.vertices()),
       changes_load_(space.changes_load()),
       fastest_(greatest_speed(space)),
-      may_continue_(motion_.wait_before_move > 0.0 && !motion_.linear_inertia.is_limited) {}
+      may_continue_(body_.wait_before_move > 0.0 && !body_.linear_inertia.is_limited) {}
 
 PlaceId Successors::place_of(int vertex, int stage) {
   const int number = changes_load_ ? goals_.stage(stage).first_vertex + vertex : vertex;
@@ -183,7 +183,7 @@ Successors::EdgeRange Successors::add_edges(LabelId from) {
     const PlaceId target = place_of(neighbour, stage);
     if (state_.places[target].never_safe()) return;
     // With inertia, a stop in a straight line costs time, on any lattice.
-    const bool has_shortcuts = view.any_angle() || motion_.linear_inertia.is_limited;
+    const bool has_shortcuts = view.any_angle() || body_.linear_inertia.is_limited;
     const bool with_shortcut = has_shortcuts && before >= 0 && neighbour != before;
     add_edges_to(from, target, state_.places[target].first_interval, with_shortcut);
   });
@@ -212,7 +212,7 @@ void Successors::add_edge_to_goal(LabelId from) {
 void Successors::add_edges_to(LabelId from, PlaceId target, int interval, bool with_shortcut) {
   const bool reversed = state_.labels[from].reverse;
   add_edge(from, target, interval, with_shortcut && !reversed, false);
-  if (motion_.may_reverse) add_edge(from, target, interval, with_shortcut && reversed, true);
+  if (body_.may_reverse) add_edge(from, target, interval, with_shortcut && reversed, true);
 }
 
 /// `interval`: the first one of the target into which the edge may lead.
@@ -246,7 +246,7 @@ inline Move Successors::move_between(LabelId from, PlaceId target, bool reverse)
   });
   double rotation = view.times().rotation_time(here.position, label.heading, move.heading);
   if (label.parent == LabelId::none && space_.any_heading_at_start()) rotation = 0.0;
-  move.ready = label.arrival + rotation + motion_.wait_before_move;
+  move.ready = label.arrival + rotation + body_.wait_before_move;
   move.latest = changes_load_ ? goals_.latest_departure(label) : state_.intervals[label.interval].end;
   move.continues_straight = may_continue_ && label.by_translation && label.reverse == reverse &&
                             angle_between(label.heading, move.heading) <= kSameHeading;

@@ -8,7 +8,7 @@
 
 #include "core/geometry/position.h"
 #include "core/geometry/segment.h"
-#include "core/model/motion.h"
+#include "core/model/body.h"
 #include "core/reservation/reservation_table.h"
 #include "core/runtime/stop_condition.h"
 #include "core/sipp/goals.h"
@@ -85,7 +85,7 @@ class Successors {
   const Goals& goals_;
   SearchState& state_;
   const StopCondition& stop_;
-  const Motion& motion_;
+  const Body& body_;
   const Vertices& vertices_;  // of the first stage
   const bool changes_load_;
   const double fastest_;     // metres per second, in any stage

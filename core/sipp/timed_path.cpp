@@ -20,13 +20,13 @@ TimedPath::TimedPath(const Instance& instance, const ReservationTable& table, st
                      const StopCondition& stop)
     : table_(table),
       stop_(stop,
-            table.is_costly() || instance.motion(robot).linear_inertia.is_limited ? 1 : kStopsBetweenPolls),
+            table.is_costly() || instance.body(robot).linear_inertia.is_limited ? 1 : kStopsBetweenPolls),
       robot_(robot),
-      loaded_(instance.stages(robot)[0]),
+      view_(instance.views(robot)[0]),
       itinerary_(instance.itinerary(robot)),
-      times_(loaded_.motion, loaded_.zones.get()),
-      may_be_timed_(!instance.stages(robot).changes_load() && !instance.options().horizon &&
-                    !instance.robot(robot).yields() && !itinerary_.goals.empty()) {}
+      times_(view_.body, view_.zones.get()),
+      may_be_timed_(!instance.views(robot).change() && !instance.options().horizon && !itinerary_.yields() &&
+                    !itinerary_.is_parked()) {}
 
 bool TimedPath::follow(const Trajectory& trajectory) {
   constexpr double kAsFast = 1e-6;  // seconds; far above rounding
@@ -109,8 +109,7 @@ void TimedPath::set_move(const Stop& from, Stop& to) const {
 
 /// Seconds from when the robot is ready to leave a stop to its departure, at least.
 double TimedPath::preparation(const Stop& from, const Stop& to) const {
-  return times_.rotation_time(from.position, from.heading_after, to.heading) +
-         loaded_.motion.wait_before_move;
+  return times_.rotation_time(from.position, from.heading_after, to.heading) + view_.body.wait_before_move;
 }
 
 /// When the goals of a stop are served if the robot arrives there at `t`, seconds. Appends the visits to
@@ -154,19 +153,14 @@ void TimedPath::set_least_left(std::size_t count) {
   }
 }
 
-bool TimedPath::is_free(const Position& from, const Position& to) const {
-  return loaded_.free_space->may_sweep(from, to, loaded_.motion.wall_radius) &&
-         (loaded_.zones == nullptr || loaded_.zones->allow(from, to));
-}
-
 /// With which the robot leaves a stop, see SearchSpace::footprint().
 Footprint TimedPath::footprint(const Stop& stop) const {
-  return {robot_, loaded_.load.radius, stop.goals_end > 0};
+  return {robot_, view_.body.radius, stop.goals_end > 0};
 }
 
 void TimedPath::set_safe_intervals(const Stop& from, Stop& to, bool is_last) const {
   const double distance = (to.position - itinerary_.pose.position).norm();
-  const double earliest = itinerary_.t_begin + distance / loaded_.motion.linear_speed;
+  const double earliest = itinerary_.t_begin + distance / view_.body.linear_speed;
   to.safe = table_.safe_intervals(footprint(from), to.position, earliest);
   if (!is_last || to.safe.empty()) return;
   to.safe.erase(to.safe.begin(), to.safe.end() - 1);
@@ -246,8 +240,8 @@ std::optional<std::size_t> TimedPath::try_replace(std::size_t first, std::size_t
   if (by) tried_.front().least_left = least_left(from, tried_.front(), &end);
   const Stop& to = tried_.front();
   if (from.arrivals.front().ready + preparation(from, to) + to.duration + to.least_left >= bound) return {};
-  if (!is_free(from.position, to.position)) return {};
-  if (by && !is_free(to.position, end.position)) return {};
+  if (!view_.allows(from.position, to.position)) return {};
+  if (by && !view_.allows(to.position, end.position)) return {};
   ++timed_count_;
   if (by) set_safe_intervals(from, tried_.front(), false);
   // Bounded: the stops of one path.

@@ -8,9 +8,9 @@
 #include <optional>
 #include <vector>
 
+#include "core/compile/instance.h"
 #include "core/geometry/position.h"
 #include "core/geometry/segment.h"
-#include "core/instance/instance.h"
 #include "core/model/itinerary.h"
 #include "core/model/trajectory.h"
 #include "core/reservation/reservation_table.h"
@@ -88,7 +88,6 @@ class TimedPath {
 
   std::optional<std::size_t> try_replace(std::size_t first, std::size_t count,
                                          const std::optional<Position>& by, double bound);
-  bool is_free(const Position& from, const Position& to) const;
   Footprint footprint(const Stop& stop) const;
   double preparation(const Stop& from, const Stop& to) const;
   double served(const Stop& from, const Stop& to, double t, std::vector<Visit>* visits = nullptr) const;
@@ -99,7 +98,7 @@ class TimedPath {
   const ReservationTable& table_;
   StopStride stop_;  // asked at every stop, or at some of them
   const std::size_t robot_;
-  const LoadedRobot& loaded_;
+  const View& view_;
   const Itinerary& itinerary_;
   const MoveTimes times_;
   const bool may_be_timed_;

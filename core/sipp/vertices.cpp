@@ -4,9 +4,9 @@
 #include <optional>
 #include <utility>
 
+#include "core/compile/instance.h"
 #include "core/geometry/segment.h"
 #include "core/geometry/tolerance.h"
-#include "core/instance/instance.h"
 #include "core/map/refinement.h"
 
 namespace fleetplan::core {
@@ -31,9 +31,9 @@ std::size_t work_to_add_to(const OwnVertices& own) {
 OwnVertices::OwnVertices(const Instance& instance, std::size_t robot, std::size_t stage)
     : instance_(instance),
       stage_(stage),
-      robot_radius_(instance.stages(robot)[stage].motion.wall_radius),
+      robot_radius_(instance.views(robot)[stage].body.wall_radius),
       lattice_(instance.lattice(robot)),
-      free_space_(*instance.stages(robot)[stage].free_space),
+      free_space_(*instance.views(robot)[stage].free_space),
       finer_(free_space_.finer()),
       first_(lattice_.vertex_count() + finer_.count()) {}
 
@@ -183,10 +183,10 @@ bool OwnVertices::may_move(const OwnVertex& own, const Position& to, double radi
 }
 
 Vertices::Vertices(const Instance& instance, std::size_t robot, std::size_t stage)
-    : times_(instance.stages(robot)[stage].motion, instance.stages(robot)[stage].zones.get()),
-      zones_(instance.stages(robot)[stage].zones.get()),
+    : times_(instance.views(robot)[stage].body, instance.views(robot)[stage].zones.get()),
+      zones_(instance.views(robot)[stage].zones.get()),
       lattice_(instance.lattice(robot)),
-      free_space_(*instance.stages(robot)[stage].free_space),
+      free_space_(*instance.views(robot)[stage].free_space),
       finer_(free_space_.finer()),
       any_angle_(instance.options().any_angle),
       own_(instance, robot, stage) {}
@@ -209,11 +209,11 @@ Vertices::Vertices(const Instance& instance, std::size_t robot, std::size_t stag
 Vertices::Vertices(const Instance& instance, std::size_t robot, const Itinerary& itinerary, std::size_t stage,
                    const StopCondition& stop)
     : Vertices(instance, robot, stage) {
-  const RobotStages& stages = instance.stages(robot);
-  const Load& load = stages[stage].load;
-  if (stages[0].load == load) start_ = own_.add_start(robot);
+  const Views& views = instance.views(robot);
+  const std::size_t own = views.number(stage);
+  if (views.number(0) == own) start_ = own_.add_start(robot);
   // Committed actions that end in contact with the goal end there: a service goes on, without a move.
-  double same = instance.robot(robot).committed.empty() ? kSamePosition : kContactTolerance;
+  double same = itinerary.is_committed ? kContactTolerance : kSamePosition;
   std::size_t work = 0;  // since the last check
   for (std::size_t k = 0; k < itinerary.goals.size(); ++k) {
     work += work_to_add_to(own_);
@@ -229,7 +229,7 @@ Vertices::Vertices(const Instance& instance, std::size_t robot, const Itinerary&
       goals_.push_back({goals_.empty() ? start_ : goals_.back().vertex, std::nullopt});
       continue;
     }
-    const bool is_here = stages[k].load == load || stages[k + 1].load == load;
+    const bool is_here = views.number(k) == own || views.number(k + 1) == own;
     const bool at_start = start_ >= 0 && (goal.position - itinerary.pose.position).norm() <= same;
     const int vertex = at_start ? start_ : is_here ? own_.add_goal(robot, goal.position) : -1;
     goals_.push_back({vertex, goal.theta});
@@ -239,7 +239,7 @@ Vertices::Vertices(const Instance& instance, std::size_t robot, const Itinerary&
 
 bool Vertices::is_free(int from, int to) const {
   if (own_.contains(from) || own_.contains(to)) return own_.is_free(from, to);
-  return free_space_.may_sweep(position(from), position(to), motion().wall_radius);
+  return free_space_.may_sweep(position(from), position(to), body().wall_radius);
 }
 
 }  // namespace fleetplan::core

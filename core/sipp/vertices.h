@@ -12,10 +12,9 @@
 #include "core/geometry/position.h"
 #include "core/geometry/segment.h"
 #include "core/map/lattice.h"
+#include "core/model/body.h"
 #include "core/model/drive_zones.h"
 #include "core/model/itinerary.h"
-#include "core/model/motion.h"
-#include "core/model/robot.h"
 #include "core/runtime/stop_condition.h"
 #include "core/sipp/moves.h"
 
@@ -32,7 +31,7 @@ class Instance;
 /// vertices, each linked to the next one only.
 class OwnVertices {
  public:
-  /// With the load of the robot in a stage, see RobotStages. `instance` outlives this object.
+  /// With the load of the robot in a stage, see Views. `instance` outlives this object.
   OwnVertices(const Instance& instance, std::size_t robot, std::size_t stage);
 
   /// Adds the place where the plan of this robot begins, if the lattice lacks it; returns its vertex.
@@ -112,7 +111,7 @@ class OwnVertices {
 /// load changes has one view for each of its loads.
 class Vertices {
  public:
-  /// The view with the load of the robot in a stage, see RobotStages.
+  /// The view with the load of the robot in a stage, see Views.
   /// If `stop` is met first, the view is not finished() and must not be used.
   Vertices(const Instance& instance, std::size_t robot, std::size_t stage, const StopCondition& stop);
   /// With other goals, those of `itinerary`; its begin is that of the instance, and the robot has one load.
@@ -141,7 +140,7 @@ class Vertices {
 
   /// How long moves take.
   const MoveTimes& times() const { return times_; }
-  const Motion& motion() const { return times_.motion(); }
+  const Body& body() const { return times_.body(); }
   const Lattice& lattice() const { return lattice_; }
   /// Whether the search may leave the lattice's directions.
   bool any_angle() const { return any_angle_; }

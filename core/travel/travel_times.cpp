@@ -9,8 +9,8 @@
 #include <utility>
 #include <variant>
 
+#include "core/compile/instance.h"
 #include "core/geometry/segment.h"
-#include "core/instance/instance.h"
 #include "core/model/itinerary.h"
 #include "core/model/loads.h"
 #include "core/reservation/reservation_table.h"
@@ -43,7 +43,7 @@ class Travels {
       : instance_(fixed == nullptr ? Instance(problem, options, stop)
                                    : Instance(problem, options, std::move(fixed), stop)),
         nobody_(problem.grid().width(), problem.grid().height(), problem.grid().width(),
-                std::vector<LargestDisk>(problem.robots().size(), instance_.stages(0).largest_disk())),
+                std::vector<LargestDisk>(problem.robots().size(), instance_.views(0).largest_disk())),
         search_(nobody_) {}
 
   const Instance& instance() const { return instance_; }
@@ -58,7 +58,7 @@ class Travels {
       const std::size_t robot = asked.robots[k];
       space.begin_at(robot, any_heading[robot]);
       const auto way = this->way(space, stop);
-      if (way && way->seconds < instance_.stages(robot).longest_plan()) ways[k] = way;
+      if (way && way->seconds < instance_.views(robot).longest_plan()) ways[k] = way;
     }
     return ways;
   }
@@ -78,7 +78,7 @@ class Travels {
     // A search that was stopped has no estimate of a whole way.
     if (estimate.least() == kForever || stop.met()) return std::nullopt;
     const double seconds =
-        space.any_heading_at_start() ? estimate.least() : estimate.with_rotation(heading, vertices.motion());
+        space.any_heading_at_start() ? estimate.least() : estimate.with_rotation(heading, vertices.body());
     // In zones that limit speeds, the estimate is not that of a whole way.
     const bool is_whole = !vertices.times().limit_speeds();
     const SearchResult found = search_.run(space, kExact, stop);

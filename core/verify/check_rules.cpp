@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "core/geometry/tolerance.h"
-#include "core/model/loads.h"
 
 namespace fleetplan::core {
 
@@ -22,6 +21,15 @@ constexpr double kLeast = 2.0 * kSamePosition;
 
 /// Whether actions of the request may be part of the plan. They went through decimal text and world
 /// coordinates.
+/// The greatest linear speed with any of its loads, metres per second.
+double greatest_speed(const Robot& robot) {
+  double greatest = robot.linear_speed;
+  for (std::size_t k = 0; k < robot.goal_count(); ++k) {
+    greatest = std::max(greatest, robot.goal_at(k).linear_speed_after.value_or(greatest));
+  }
+  return greatest;
+}
+
 bool has_given_actions(const Robot& robot) { return !robot.committed.empty() || robot.previous.has_value(); }
 
 }  // namespace
@@ -34,7 +42,7 @@ std::vector<Tolerance> plan_tolerances(const OccupancyGrid& grid, const std::vec
   for (const RobotPlan& plan : plans) {
     if (has_given_actions(robots[plan.robot])) continue;
     Tolerance& tolerance = all[plan.robot];
-    const double travel = plan.cost * fastest_speed(robots[plan.robot]);
+    const double travel = plan.cost * greatest_speed(robots[plan.robot]);
     tolerance.metres = std::min(kMostTolerance, at_rest + kMotionRounding * travel);
     tolerance.seconds = kLeast + kRounding * plan.cost;
   }

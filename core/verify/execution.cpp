@@ -29,7 +29,7 @@ namespace {
 class ProfileLegs {
  public:
   /// Divides a translation with a profile; if the profile does not fit, the speed is constant.
-  static std::vector<Leg> of(const Action& action, const Load& load) {
+  static std::vector<Leg> of(const Action& action, const CarriedLoad& load) {
     const Leg whole{action.t_start, std::max(action.t_start, action.t_end), action.from.position,
                     action.to.position};
     const double length = (whole.to - whole.from).norm();
@@ -141,6 +141,27 @@ Handover handover_of(const Robot& robot, const RobotPlan* plan) {
 
 namespace {
 
+CarriedLoad load_at_start(const Robot& robot) {
+  return {robot.radius, robot.linear_speed, robot.linear_acceleration, robot.linear_deceleration};
+}
+
+/// A goal that gives an acceleration without a deceleration changes both.
+CarriedLoad after_service(CarriedLoad load, const Goal& goal) {
+  if (goal.radius_after) load.radius = *goal.radius_after;
+  if (goal.linear_speed_after) load.linear_speed = *goal.linear_speed_after;
+  if (goal.linear_acceleration_after) {
+    load.linear_acceleration = *goal.linear_acceleration_after;
+    load.linear_deceleration = *goal.linear_acceleration_after;
+  }
+  if (goal.linear_deceleration_after) load.linear_deceleration = *goal.linear_deceleration_after;
+  return load;
+}
+
+bool any_changes_load(const Robot& robot) {
+  const auto changes = [](const Goal& goal) { return goal.changes_load(); };
+  return std::any_of(robot.via.begin(), robot.via.end(), changes) || (robot.goal && changes(*robot.goal));
+}
+
 /// Follows the actions and serves one goal after the other.
 class Services {
  public:
@@ -149,7 +170,7 @@ class Services {
         metres_(std::max(tolerance.metres, kContactTolerance)),
         radians_(std::max(tolerance.radians, kContactTolerance)),
         seconds_(tolerance.seconds),
-        steps_{{0.0, first_load(robot)}} {}
+        steps_{{0.0, load_at_start(robot)}} {}
 
   std::vector<CarriedLoads::Step> run(const std::vector<Action>& actions, bool ends_at_goal) {
     Pose pose = robot_.start;
@@ -189,7 +210,7 @@ class Services {
   }
 
   void end_service(const Goal& goal, double t) {
-    if (goal.changes_load()) steps_.push_back({t, load_after(steps_.back().load, goal)});
+    if (goal.changes_load()) steps_.push_back({t, after_service(steps_.back().load, goal)});
   }
 
   const Robot& robot_;
@@ -204,13 +225,13 @@ class Services {
 }  // namespace
 
 CarriedLoads::CarriedLoads(const Robot& robot, const RobotPlan* plan, const Tolerance& tolerance)
-    : steps_{{0.0, first_load(robot)}}, seconds_(tolerance.seconds) {
+    : steps_{{0.0, load_at_start(robot)}}, seconds_(tolerance.seconds) {
   const bool does_nothing = robot.invalid || (plan == nullptr && robot.committed.empty());
-  if (does_nothing || !changes_load(robot)) return;
+  if (does_nothing || !any_changes_load(robot)) return;
   steps_ = Services(robot, tolerance).run(plan != nullptr ? plan->actions : robot.committed, plan != nullptr);
 }
 
-const Load& CarriedLoads::at(double t) const {
+const CarriedLoad& CarriedLoads::at(double t) const {
   const auto next = std::upper_bound(steps_.begin() + 1, steps_.end(), t + seconds_,
                                      [](double time, const Step& step) { return time < step.t; });
   return std::prev(next)->load;
@@ -234,18 +255,18 @@ std::vector<Leg> take_until(double t, std::vector<Leg>& legs) {
 
 }  // namespace
 
-std::vector<Body> bodies_of(const CarriedLoads& loads, std::vector<Leg> legs) {
-  std::vector<Body> bodies;
+std::vector<SizedLegs> sized_legs_of(const CarriedLoads& loads, std::vector<Leg> legs) {
+  std::vector<SizedLegs> disks;
   double radius = loads.steps().front().load.radius;
   for (const auto& [t, load] : loads.steps()) {
     if (load.radius != radius) {
       std::vector<Leg> before = take_until(t, legs);
-      if (!before.empty()) bodies.push_back({radius, std::move(before)});
+      if (!before.empty()) disks.push_back({radius, std::move(before)});
     }
     radius = load.radius;
   }
-  bodies.push_back({radius, std::move(legs)});
-  return bodies;
+  disks.push_back({radius, std::move(legs)});
+  return disks;
 }
 
 }  // namespace fleetplan::core

@@ -8,7 +8,6 @@
 #include <limits>
 #include <vector>
 
-#include "core/model/loads.h"
 #include "core/model/plan.h"
 #include "core/model/robot.h"
 #include "core/model/surroundings.h"
@@ -34,6 +33,14 @@ Position position_at(const Leg& leg, double t);
 /// Returns the part of a leg from `begin` to `end`, which are within it; both may be the same.
 Leg part_of(const Leg& leg, double begin, double end);
 
+/// What matters about a robot while its load does not change, by the checker's own reading of the request.
+struct CarriedLoad {
+  double radius = 0.0;               // metres
+  double linear_speed = 0.0;         // metres per second
+  double linear_acceleration = 0.0;  // metres per second squared
+  double linear_deceleration = 0.0;  // metres per second squared
+};
+
 /// The loads of a robot that executes a plan (null: its commitment). Each goal is served as early as
 /// possible, by an uninterrupted rest in its pose after the goals before it. The last one is served by the
 /// rest at the end of the plan, after the commitment; a robot without a plan does not serve it. One that has
@@ -43,7 +50,7 @@ class CarriedLoads {
   /// A load that is carried from a time on, seconds.
   struct Step {
     double t = 0.0;
-    Load load;
+    CarriedLoad load;
   };
 
   CarriedLoads(const Robot& robot, const RobotPlan* plan, const Tolerance& tolerance);
@@ -51,7 +58,7 @@ class CarriedLoads {
   /// Ascending, the first one from t = 0 on.
   const std::vector<Step>& steps() const { return steps_; }
   /// During an action that begins at `t`, within the tolerance.
-  const Load& at(double t) const;
+  const CarriedLoad& at(double t) const;
 
  private:
   std::vector<Step> steps_;
@@ -90,18 +97,18 @@ struct Handover {
 Handover handover_of(const Robot& robot, const RobotPlan* plan);
 
 /// A disk of constant radius on its way.
-struct Body {
+struct SizedLegs {
   double radius = 0.0;  // metres
   std::vector<Leg> legs;
 };
 
 /// Returns the disks of a robot, each from the end of the one before, the first from t = 0, the last to
 /// infinity. `legs` are the result of execute() with these loads.
-std::vector<Body> bodies_of(const CarriedLoads& loads, std::vector<Leg> legs);
+std::vector<SizedLegs> sized_legs_of(const CarriedLoads& loads, std::vector<Leg> legs);
 
 /// Robots that execute their plans. All lists are in the same order; a position in them is not the index of
 /// the robot. A robot whose radius changes has several positions, one after the other, for one time each (see
-/// bodies_of).
+/// sized_legs_of).
 struct ExecutedFleet {
   std::vector<std::size_t> robots;  // indices of the robots, ascending
   std::vector<double> radii;        // metres, bare

@@ -361,7 +361,7 @@ class FleetCheck {
     const Handover handover = handover_of(robot, plan);
     std::vector<Leg> legs;
     std::vector<double> radii;  // by leg
-    for (Body& body : bodies_of(loads, execute(robot, plan, loads))) {
+    for (SizedLegs& body : sized_legs_of(loads, execute(robot, plan, loads))) {
       legs.insert(legs.end(), body.legs.begin(), body.legs.end());
       radii.resize(legs.size(), body.radius);
       add_to_fleet(robot, plan, std::move(body), handover, index);
@@ -379,7 +379,7 @@ class FleetCheck {
         zones.check_driving(plan != nullptr ? plan->actions : robot.committed, loads, tolerance, stop_));
   }
 
-  void add_to_fleet(const Robot& robot, const RobotPlan* plan, Body body, const Handover& handover,
+  void add_to_fleet(const Robot& robot, const RobotPlan* plan, SizedLegs body, const Handover& handover,
                     std::size_t index) {
     fleet_.robots.push_back(index);
     fleet_.radii.push_back(body.radius);

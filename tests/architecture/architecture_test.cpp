@@ -23,6 +23,7 @@ namespace TEST_FILE {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::SizeIs;
 
 namespace fs = std::filesystem;
 
@@ -138,7 +139,7 @@ TEST(SourceRules, AllowTheFacadeOnlyOutsideCoreAndInItsSource) {
   EXPECT_THAT(violations("core/planner.cpp", include), IsEmpty());
   EXPECT_THAT(violations("api/endpoints/a.cpp", include), IsEmpty());
   for (const std::string path :
-       {"core/instance/instance.h", "core/sipp/a.cpp", "core/lns/a.cpp", "core/verify/a.cpp"}) {
+       {"core/compile/instance.h", "core/sipp/a.cpp", "core/lns/a.cpp", "core/verify/a.cpp"}) {
     EXPECT_THAT(violations(path, "#pragma once\n" + include),
                 ElementsAre(path + " must not include \"core/planner.h\""));
   }
@@ -146,7 +147,7 @@ TEST(SourceRules, AllowTheFacadeOnlyOutsideCoreAndInItsSource) {
 
 TEST(SourceRules, RejectPlanningOfAllRobotsInFoldersForOneRobot) {
   for (const std::string folder :
-       {"geometry", "map", "model", "instance", "runtime", "reservation", "bounds", "sipp"}) {
+       {"geometry", "map", "model", "compile", "runtime", "reservation", "bounds", "sipp"}) {
     const std::string path = "core/" + folder + "/a.cpp";
     EXPECT_THAT(violations(path, "#include \"core/prioritized/plan_state.h\"\n"),
                 ElementsAre(path + " must not include \"core/prioritized/plan_state.h\""));
@@ -167,6 +168,22 @@ TEST(SourceRules, RejectTheSearchInTheChecker) {
   }
   EXPECT_THAT(violations(path, "#include \"core/geometry/position.h\"\n#include \"core/model/plan.h\"\n"),
               IsEmpty());
+}
+
+TEST(SourceRules, RejectTheReadingOfRequestsInTheChecker) {
+  for (const std::string header : {"core/compile/instance.h", "core/model/served.h", "core/model/loads.h"}) {
+    EXPECT_THAT(violations("core/verify/a.cpp", "#include \"" + header + "\"\n"), SizeIs(1));
+    EXPECT_THAT(violations("core/advance/a.cpp", "#include \"core/model/loads.h\"\n"), IsEmpty());
+  }
+}
+
+TEST(SourceRules, RejectRobotsWhereTheyAreCompiled) {
+  const std::string reads = "double f(const Robot& robot) { return robot.radius; }\n";
+  EXPECT_THAT(violations("core/sipp/a.cpp", reads), ElementsAre(HasSubstr("Robot")));
+  EXPECT_THAT(violations("core/prioritized/a.cpp", reads), SizeIs(1));
+  EXPECT_THAT(violations("core/prioritized/collect_plan.cpp", reads), IsEmpty());
+  EXPECT_THAT(violations("core/compile/a.cpp", reads), IsEmpty());
+  EXPECT_THAT(violations("core/sipp/a.cpp", "RobotPlan plan;  // of a Robot\n"), IsEmpty());
 }
 
 TEST(SourceRules, RequireIncludesRelativeToTheProject) {

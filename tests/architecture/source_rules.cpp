@@ -72,6 +72,14 @@ const std::vector<Layer>& layers() {
   return all;
 }
 
+/// Folders whose files read what a request was compiled to, and not its robots; and those of their files that
+/// make or judge the plan that is returned, and may read them.
+constexpr std::array<string_view, 6> kWithoutRobots{"core/bounds/",      "core/commitments/", "core/lns/",
+                                                    "core/prioritized/", "core/reservation/", "core/sipp/"};
+constexpr std::array<string_view, 3> kReadRobots{"core/prioritized/collect_plan.cpp",
+                                                 "core/prioritized/collect_plan.h",
+                                                 "core/prioritized/narrow_places.cpp"};
+
 const std::vector<FolderRule>& folder_rules() {
   static const std::vector<string_view> all_robots = {"core/prioritized/", "core/lns/"};
   static const std::vector<FolderRule> all = {
@@ -89,7 +97,7 @@ const std::vector<FolderRule>& folder_rules() {
       {"core/commitments/", all_robots, {}},
       {"core/reservation/", all_robots, {}},
       {"core/bounds/", all_robots, {}},
-      {"core/instance/", all_robots, {}},
+      {"core/compile/", all_robots, {}},
       {"core/sipp/", all_robots, {}},
       // What follows from a plan, whoever made it.
       {"core/advance/",
@@ -99,11 +107,14 @@ const std::vector<FolderRule>& folder_rules() {
       {"core/execution/",
        {"core/reservation/", "core/sipp/", "core/prioritized/", "core/lns/", "core/bounds/", "core/replan/"},
        {}},
-      // The checker is independent: it shares no collision test with the search.
+      // The checker is independent: it shares no collision test with the search, and reads the request
+      // itself:
+      // a wrong reading that it shared would be found right.
       {"core/verify/",
-       {"core/advance/", "core/commitments/", "core/reservation/", "core/sipp/", "core/prioritized/",
-        "core/lns/", "core/bounds/", "core/replan/", "core/execution/", "core/geometry/disk_motion.h",
-        "core/geometry/motion_tree.h"},
+       {"core/advance/", "core/commitments/", "core/compile/", "core/reservation/", "core/sipp/",
+        "core/prioritized/", "core/lns/", "core/bounds/", "core/replan/", "core/execution/",
+        "core/geometry/disk_motion.h", "core/geometry/motion_tree.h", "core/model/body.h",
+        "core/model/itinerary.h", "core/model/loads.h", "core/model/served.h"},
        {}},
   };
   return all;
@@ -235,6 +246,13 @@ bool makes_a_stop_condition(string_view path, const std::string& code) {
          code.find("Work::unbounded") != std::string::npos || constructs(code, "StopCondition");
 }
 
+/// Whether a file that has to work with what was compiled reads robots as they were received.
+bool reads_robots(string_view path, const std::string& code) {
+  const auto is_of = [&](string_view folder) { return path.starts_with(folder); };
+  return std::any_of(kWithoutRobots.begin(), kWithoutRobots.end(), is_of) &&
+         std::find(kReadRobots.begin(), kReadRobots.end(), path) == kReadRobots.end() && uses(code, "Robot");
+}
+
 /// The folder below a layer that a file is in, such as "core/map"; the layer, if the file lies loose.
 string_view folder_of(string_view path) {
   const std::size_t layer_end = std::min(path.find('/'), path.size());
@@ -293,6 +311,7 @@ std::vector<std::string> violations(string_view path, string_view text) {
   if (makes_a_stop_condition(path, code)) {
     report("makes a stop condition of its own: derive it from the request's ", "Work");
   }
+  if (reads_robots(path, code)) report("reads what was compiled, and not a ", "Robot");
   if (path.starts_with("core/") || path.starts_with("api/")) {
     for (std::string& loop : unbounded_loops(path, text, code)) found.push_back(std::move(loop));
   }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "api/request/parse_request.h"
-#include "core/instance/instance.h"
+#include "core/compile/instance.h"
 #include "core/prioritized/plan_state.h"
 #include "tests/bench/median.h"
 #include "tests/support/unbounded_work.h"
@@ -30,7 +30,7 @@ void plan_each_robot(const api::PlanRequest& request) {
   const core::Instance instance(request.problem, request.options, never);
   core::PlanState state(instance);  // without reservations
   for (std::size_t robot = 0; robot < instance.size(); ++robot) {
-    if (instance.robot(robot).goal) state.plan(robot, {}, never);
+    if (instance.problem().robots()[robot].goal) state.plan(robot, {}, never);
   }
 }
 

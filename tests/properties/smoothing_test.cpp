@@ -58,13 +58,15 @@ FleetRequest request_with_all(Dice& dice) {
 
 /// The robot's share in the objective, by its plan.
 double share_in(const Problem& problem, const PlanOptions& options, const RobotPlan& plan) {
-  const Robot& robot = problem.robots()[plan.robot];
-  if (!robot.goal) return 0.0;
+  const Itinerary itinerary = itinerary_of(problem.robots()[plan.robot]);
+  if (itinerary.is_parked()) return 0.0;
   Trajectory trajectory;
   trajectory.cost = plan.cost;
   trajectory.visits = plan.visits;
-  if (trajectory.visits.size() == robot.goal_count()) trajectory.visits.pop_back();
-  return share_of(robot, options.objective, trajectory);
+  const std::size_t last = itinerary.first_goal + itinerary.goals.size() - 1;
+  std::erase_if(trajectory.visits,
+                [&](const Visit& visit) { return visit.goal < itinerary.first_goal || visit.goal == last; });
+  return share_of(itinerary, options.objective, trajectory);
 }
 
 /// Expects that no robot has a greater share than without smoothing.

@@ -103,8 +103,8 @@ inline std::vector<core::RobotPlan> plans_of(const core::FleetReservations& rese
     const auto& trajectory = reservations.trajectory(i);
     if (!trajectory) continue;
     plans.push_back({i, trajectory->cost,
-                     core::to_actions(reservations.instance().robot(i), *trajectory,
-                                      reservations.instance().stages(i)[0].zones.get())});
+                     core::to_actions(reservations.instance().problem().robots()[i], *trajectory,
+                                      reservations.instance().views(i)[0].zones.get())});
   }
   return plans;
 }

@@ -179,7 +179,7 @@ class MotionCheck {
     const double amount =
         turns ? turn_between(action.from, action.to) : distance_between(action.from, action.to);
     const double tolerance = turns ? tolerance_.radians : tolerance_.metres;
-    const Load& load = loads_.at(action.t_start);
+    const CarriedLoad& load = loads_.at(action.t_start);
     const double gain = turns ? robot_.angular_acceleration : load.linear_acceleration;
     const double loss = turns ? robot_.angular_acceleration : load.linear_deceleration;
     const bool is_limited = std::isfinite(gain) || std::isfinite(loss);

@@ -253,7 +253,7 @@ ViolationList ZonesOfRobot::check_driving(const std::vector<Action>& actions, co
       if (nearest_to_rectangle(action.from.position, action.to.position, in.box).distance > 0.0) continue;
       std::optional<Violation> found;
       if (action.type == Action::Type::translate) {
-        const Load& load = loads.at(action.t_start);
+        const CarriedLoad& load = loads.at(action.t_start);
         found = check_translation(in, action, k, load, tolerance, stop);
       } else if (action.type == Action::Type::rotate) {
         found = check_rotation(in, action, k, tolerance);
@@ -267,7 +267,7 @@ ViolationList ZonesOfRobot::check_driving(const std::vector<Action>& actions, co
 /// Reports a translation that breaks the rule of a zone. The time that is missing is measured over the part
 /// inside the zone, as that of whole actions is.
 std::optional<Violation> ZonesOfRobot::check_translation(const ZoneBox& in, const Action& action,
-                                                         std::size_t number, const Load& load,
+                                                         std::size_t number, const CarriedLoad& load,
                                                          const Tolerance& tolerance,
                                                          const StopCondition& stop) const {
   const Position way = action.to.position - action.from.position;

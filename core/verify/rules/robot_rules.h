@@ -124,7 +124,7 @@ class ZonesOfRobot {
                                   const Handover& handover, double tolerance,
                                   const StopCondition& stop) const;
   std::optional<Violation> check_translation(const ZoneBox& in, const Action& action, std::size_t number,
-                                             const Load& load, const Tolerance& tolerance,
+                                             const CarriedLoad& load, const Tolerance& tolerance,
                                              const StopCondition& stop) const;
   std::optional<Violation> check_rotation(const ZoneBox& in, const Action& action, std::size_t number,
                                           const Tolerance& tolerance) const;

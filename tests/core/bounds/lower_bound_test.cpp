@@ -25,7 +25,7 @@ double bound_of(Robot robot, double wait_before_move = 0.0) {
   robot.angular_speed = 0.5;
   PlanOptions options;
   options.wait_before_move = wait_before_move;
-  return lower_bound(robot, options);
+  return lower_bound(itinerary_of(robot), bodies_of(robot, options, 0));
 }
 
 TEST(LowerBound, IsTheStraightLineWithTheRotationsBeforeAndAfterIt) {
@@ -59,14 +59,14 @@ TEST_P(LowerBoundOfRandomProblems, NeverExceedsTheCostOfTheRobotAloneAndIsExactI
     PlanOptions options = support::random_options(dice, problem);
     options.any_angle = GetParam();
     Planning p(std::move(problem), options);
-    const Robot& robot = p.instance.robot(0);
+    const Robot& robot = p.instance.problem().robots()[0];
     if (!robot.goal) continue;
     const auto found = p.state.plan(0, {kForever, 0.0}, p.never).trajectory;
     if (!found) continue;
-    const double bound = lower_bound(robot, p.instance.options());
+    const double bound = straight_bound(p.instance, 0);
     ASSERT_GE(found->cost, bound - 1e-8);
     const bool seen = p.instance.sight_past_walls().may_sweep(robot.start.position, robot.goal->position,
-                                                              p.instance.motion(0).wall_radius);
+                                                              p.instance.body(0).wall_radius);
     if (seen && GetParam()) {
       ASSERT_NEAR(found->cost, bound, 1e-8);
     }
@@ -106,16 +106,16 @@ TEST(LowerBound, CountsOnlyWhatIsLeftOfAServiceUnderWay) {
 
 INSTANTIATE_TEST_SUITE_P(AnyAngle, LowerBoundOfRandomProblems, testing::Bool());
 
-Motion motion(double linear_speed, double angular_speed) {
-  Motion motion;
-  motion.linear_speed = linear_speed;
-  motion.angular_speed = angular_speed;
-  motion.may_reverse = true;
-  return motion;
+Body body(double linear_speed, double angular_speed) {
+  Body body;
+  body.linear_speed = linear_speed;
+  body.angular_speed = angular_speed;
+  body.may_reverse = true;
+  return body;
 }
 
 TEST(ReverseBound, IsTheLengthForARobotThatLooksAlongTheLine) {
-  const Motion robot = motion(2.0, 0.5);
+  const Body robot = body(2.0, 0.5);
   EXPECT_DOUBLE_EQ(reverse_bound(6.0, 0.3, 0.3, 0.3, robot), 3.0);
   EXPECT_NEAR(reverse_bound(6.0, 0.3, 0.3 - kPi, 0.3 - kPi, robot), 3.0, 1e-12) << "backwards";
   EXPECT_DOUBLE_EQ(reverse_bound(6.0, 0.3, std::nullopt, std::nullopt, robot), 3.0);
@@ -123,13 +123,13 @@ TEST(ReverseBound, IsTheLengthForARobotThatLooksAlongTheLine) {
 }
 
 TEST(ReverseBound, TurnsIntoTheLineIfThatIsQuick) {
-  const Motion robot = motion(0.01, 10.0);
+  const Body robot = body(0.01, 10.0);
   EXPECT_NEAR(reverse_bound(1.0, 0.0, 1.0, std::nullopt, robot), 100.0 + 0.1, 0.01);
   EXPECT_NEAR(reverse_bound(1.0, 0.0, kPi - 1.0, std::nullopt, robot), 100.0 + 0.1, 0.01) << "backwards";
 }
 
 TEST(ReverseBound, GoesBesideTheLineIfTurningIsSlow) {
-  const Motion robot = motion(100.0, 0.01);
+  const Body robot = body(100.0, 0.01);
   EXPECT_NEAR(reverse_bound(1.0, 0.0, kPi / 3.0, kPi / 3.0, robot), 0.02, 1e-3);
   const double opposite = reverse_bound(1.0, 0.0, kPi / 2.0, -kPi / 2.0, robot);
   EXPECT_GE(opposite, kPi / 0.01) << "it has to turn anyway";
@@ -141,7 +141,7 @@ TEST(ReverseBound, IsNeverMoreThanTheStraightCostForwards) {
   std::uniform_real_distribution<double> heading(-kPi, kPi);
   std::uniform_real_distribution<double> exponent(-2.0, 2.0);
   for (int k = 0; k < 2000; ++k) {
-    Motion robot = motion(std::pow(10.0, exponent(random)), std::pow(10.0, exponent(random)));
+    Body robot = body(std::pow(10.0, exponent(random)), std::pow(10.0, exponent(random)));
     Goal goal{{std::pow(10.0, exponent(random)), 0.0}, std::nullopt};
     if (k % 2 == 0) goal.theta = heading(random);
     const Pose from{{0.0, 0.0}, heading(random)};
@@ -158,7 +158,7 @@ TEST(ReverseBound, HoldsForRandomPaths) {
   std::uniform_real_distribution<double> length(-3.0, 3.0);
   std::uniform_real_distribution<double> exponent(-2.0, 2.0);
   for (int k = 0; k < 5000; ++k) {
-    const Motion robot = motion(std::pow(10.0, exponent(random)), std::pow(10.0, exponent(random)));
+    const Body robot = body(std::pow(10.0, exponent(random)), std::pow(10.0, exponent(random)));
     const double spread = std::pow(10.0, exponent(random) - 1.0);
     const double from = heading(random);
     Position at(0.0, 0.0);
@@ -184,7 +184,7 @@ TEST(ReverseBound, IsTheBestTradeOfTurnsForLength) {
   std::uniform_real_distribution<double> angle(0.0, kPi / 2.0);
   std::uniform_real_distribution<double> exponent(-1.0, 1.0);
   for (int k = 0; k < 300; ++k) {
-    const Motion robot = motion(1.0, std::pow(10.0, exponent(random)));
+    const Body robot = body(1.0, std::pow(10.0, exponent(random)));
     const double from = angle(random);
     const double bound = reverse_bound(1.0, 0.0, from, std::nullopt, robot);
     double best = std::min(from / robot.angular_speed + 1.0, 1.0 / std::cos(from));

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/bounds/lower_bound.h"
-#include "core/instance/instance.h"
+#include "core/compile/instance.h"
 #include "tests/core/support/planning.h"
 #include "tests/support/random_problem.h"
 
@@ -38,7 +38,7 @@ double bound_of(const Problem& problem, const PlanOptions& options = {}, double 
 
 double straight_bound_of(const Problem& problem) {
   const Instance instance(problem, {}, StopCondition::never());
-  return lower_bound(instance.robot(0), instance.options());
+  return straight_bound(instance, 0);
 }
 
 std::optional<double> cost_alone(const Problem& problem, const PlanOptions& options = {}) {
@@ -246,7 +246,7 @@ TEST_P(TautPathBoundsOfRandomProblems, AreBetweenTheStraightLineAndTheCostOfTheR
     if (!cost) continue;
     const double bound = bound_of(*problem, options);
     const Instance instance(*problem, options, StopCondition::never());
-    const double straight = lower_bound(instance.robot(0), instance.options());
+    const double straight = straight_bound(instance, 0);
     ASSERT_LE(bound, *cost * (1.0 + 1e-12) + 1e-9);
     ASSERT_GE(bound, straight);
     ASSERT_DOUBLE_EQ(bound_of(*problem, options, *cost), bound) << "with the cost known";
@@ -320,7 +320,7 @@ TEST(TautPathBounds, AreStraightLinesAndReportedAsCutOffWhenStopped) {
   const Instance instance(problem, {}, StopCondition::never());
   const TautPathBounds bounds(instance, {0, 1}, {kForever, kForever}, met());
   EXPECT_TRUE(bounds.cut_off());
-  EXPECT_EQ(bounds[0], lower_bound(instance.robot(0), instance.options()));
+  EXPECT_EQ(bounds[0], straight_bound(instance, 0));
   EXPECT_FALSE(TautPathBounds(instance, {1}, {kForever, kForever}, met()).cut_off())
       << "its goal is in sight";
 }
@@ -353,13 +353,13 @@ TEST(TautPathBounds, TakeLimitedWorkForManyRobotsOnALargeMapWithManyCorners) {
   EXPECT_FALSE(bounds.cut_off());
   CornerVisibility corners(grid, 0.3, 0.4, StopCondition::never());
   for (const std::size_t robot : {std::size_t{0}, all.back()}) {
-    TautPathSearch search(corners, instance.sight_past_walls(), instance.motion(robot).wall_radius);
+    TautPathSearch search(corners, instance.sight_past_walls(), instance.body(robot).wall_radius);
     const double whole = search
-                             .run(legs_of(instance.itinerary(robot))[0], instance.motion(robot), kForever,
+                             .run(legs_of(instance.itinerary(robot))[0], instance.body(robot), kForever,
                                   1'000'000'000, StopCondition::never())
                              .seconds;
     EXPECT_LT(bounds[robot], whole - 1e-3);
-    EXPECT_GE(bounds[robot], lower_bound(instance.robot(robot), instance.options()));
+    EXPECT_GE(bounds[robot], straight_bound(instance, robot));
   }
 }
 
@@ -392,13 +392,13 @@ TEST(TautPathBounds, BeginAfterTheCommittedActions) {
 TEST(TautPathSearch, ReturnsHigherBoundsAfterMoreWork) {
   const Problem problem = make_problem(maze(), {robot_at(1.5, 0.5).to(1.5, 8.5)});
   const Instance instance(problem, {}, StopCondition::never());
-  double before = lower_bound(instance.robot(0), instance.options());
+  double before = straight_bound(instance, 0);
   const double first = before;
   for (const std::int64_t work : {0, 400, 1200, 1000000}) {
-    CornerVisibility corners(problem.grid(), instance.motion(0).wall_radius, instance.motion(0).wall_radius,
+    CornerVisibility corners(problem.grid(), instance.body(0).wall_radius, instance.body(0).wall_radius,
                              StopCondition::never());
-    TautPathSearch search(corners, instance.sight_past_walls(), instance.motion(0).wall_radius);
-    const TautPathResult result = search.run(legs_of(instance.itinerary(0))[0], instance.motion(0), kForever,
+    TautPathSearch search(corners, instance.sight_past_walls(), instance.body(0).wall_radius);
+    const TautPathResult result = search.run(legs_of(instance.itinerary(0))[0], instance.body(0), kForever,
                                              work, StopCondition::never());
     EXPECT_FALSE(result.cut_off);
     EXPECT_GT(result.seconds, before);
@@ -415,11 +415,11 @@ TEST(TautPathSearch, NeedsLessWorkWhereAPlanIsKnown) {
   }
   const Problem problem = make_problem(pillars, {robot_at(13.5, 14.5).to(19.5, 14.5)});
   const Instance instance(problem, {}, StopCondition::never());
-  const double radius = instance.motion(0).wall_radius;
+  const double radius = instance.body(0).wall_radius;
   const auto work = [&](double at_most) {
     CornerVisibility corners(problem.grid(), radius, radius, StopCondition::never());
     TautPathSearch search(corners, instance.sight_past_walls(), radius);
-    search.run(legs_of(instance.itinerary(0))[0], instance.motion(0), at_most, 1'000'000,
+    search.run(legs_of(instance.itinerary(0))[0], instance.body(0), at_most, 1'000'000,
                StopCondition::never());
     return search.work();
   };

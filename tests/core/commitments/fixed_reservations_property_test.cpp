@@ -45,7 +45,7 @@ class RandomFixed : public testing::TestWithParam<int> {
  protected:
   RandomFixed() : dice(static_cast<std::uint64_t>(GetParam())) {
     margin = dice.chance(0.5) ? dice.between(0.1, 2.0) : 0.0;
-    std::vector<FixedReservations::Robot> robots{idle({1, 1}, kRadius)};
+    std::vector<FixedReservations::Committed> robots{idle({1, 1}, kRadius)};
     for (int i = 1; i <= 5; ++i) robots.push_back(robot(i <= 3));
     fixed = std::make_unique<FixedReservations>(kSize, kSize, robots, obstacles(), nullptr,
                                                 StopCondition::never());
@@ -72,13 +72,13 @@ class RandomFixed : public testing::TestWithParam<int> {
     return trajectory;
   }
 
-  static FixedReservations::Robot idle(const Position& at, double radius) {
+  static FixedReservations::Committed idle(const Position& at, double radius) {
     return {{radius, radius + kInflation}, at, at, 0.0, {}, radius, radius};
   }
 
-  FixedReservations::Robot robot(bool is_committed) {
+  FixedReservations::Committed robot(bool is_committed) {
     const Position start = place();
-    FixedReservations::Robot random = idle(start, dice.between(0.1, 0.6));
+    FixedReservations::Committed random = idle(start, dice.between(0.1, 0.6));
     if (!is_committed) return random;
     random.committed = sized(timed_segments(random_trajectory(start, 0.0)), random.disk.radius);
     random.committed_until = random.committed.back().t_start + dice.between(0.1, 3.0);
@@ -87,7 +87,7 @@ class RandomFixed : public testing::TestWithParam<int> {
     return random;
   }
 
-  void reserve(std::size_t i, const FixedReservations::Robot& each, double reach) {
+  void reserve(std::size_t i, const FixedReservations::Committed& each, double reach) {
     std::vector<TimedSegment> after{
         {{each.committed_end, each.committed_end}, each.committed_until, kForever}};
     if (each.committed.empty()) after = timed_segments(random_trajectory(each.start, 0.0));

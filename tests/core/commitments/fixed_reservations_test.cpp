@@ -29,18 +29,18 @@ std::vector<SizedSegment> drive(const Position& from, const Position& to, double
 
 std::vector<SizedSegment> stand(const Position& at) { return sized(timed_segments({at, {}, 0.0}), kRadius); }
 
-FixedReservations::Robot idle(const Position& at) {
+FixedReservations::Committed idle(const Position& at) {
   return {{kRadius, kRadius}, at, at, 0.0, {}, kRadius, kRadius};
 }
 
 /// Drives straight from one point to the other, with its centre there at `t_end`.
-FixedReservations::Robot committed(const Position& from, const Position& to, double t_end) {
+FixedReservations::Committed committed(const Position& from, const Position& to, double t_end) {
   return {{kRadius, kRadius}, from, to, t_end, {{{{from, to}, 0.0, t_end}, kRadius}}, kRadius, kRadius};
 }
 
 /// Robots among fixed reservations.
 struct Scene {
-  Scene(std::vector<FixedReservations::Robot> robots, const std::vector<MovingObstacle>& obstacles,
+  Scene(std::vector<FixedReservations::Committed> robots, const std::vector<MovingObstacle>& obstacles,
         double margin = 0.0, double inflation = 0.0)
       : count(robots.size()),
         fixed(kSize, kSize, inflated(std::move(robots), inflation), obstacles, nullptr,
@@ -48,9 +48,9 @@ struct Scene {
         table(kSize, kSize, 1.0, disks_of(std::vector<double>(count, kRadius), inflation), nullptr, &fixed,
               margin) {}
 
-  static std::vector<FixedReservations::Robot> inflated(std::vector<FixedReservations::Robot> robots,
-                                                        double inflation) {
-    for (FixedReservations::Robot& robot : robots) robot.disk.pair_radius += inflation;
+  static std::vector<FixedReservations::Committed> inflated(std::vector<FixedReservations::Committed> robots,
+                                                            double inflation) {
+    for (FixedReservations::Committed& robot : robots) robot.disk.pair_radius += inflation;
     return robots;
   }
 

@@ -74,7 +74,7 @@ struct Corners : Planning {
   }
   std::string text_of(const Trajectory& trajectory) const {
     Plan plan;
-    plan.plans = {{0, trajectory.cost, to_actions(instance.robot(0), trajectory)}};
+    plan.plans = {{0, trajectory.cost, to_actions(instance.problem().robots()[0], trajectory)}};
     return exact_text(plan);
   }
 };
@@ -198,11 +198,11 @@ TEST(Smoothing, MakesTheShareInTheTardinessLess) {
        std::vector<std::pair<double, double>>{{0.0, 0.0}, {0.0, 1000.0}, {1000.0, 0.0}, {1000.0, 1000.0}}) {
     SCOPED_TRACE(testing::Message() << "due at " << first_due << " and " << last_due);
     Corners p({due_robot(first_due, last_due)}, with_objective(Objective::tardiness));
-    const Robot& robot = p.instance.robot(0);
+    const Itinerary& itinerary = p.instance.itinerary(0);
     const Trajectory before = p.now();
     p.improve();
-    EXPECT_LT(share_of(robot, Objective::tardiness, p.now()),
-              share_of(robot, Objective::tardiness, before) - 1e-7);
+    EXPECT_LT(share_of(itinerary, Objective::tardiness, p.now()),
+              share_of(itinerary, Objective::tardiness, before) - 1e-7);
     EXPECT_EQ(p.now().visits.size(), 1U);
   }
 }

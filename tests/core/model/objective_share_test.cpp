@@ -29,17 +29,17 @@ Trajectory of_cost(double cost) {
 
 TEST(ObjectiveShare, IsTheCostTimesTheWeight) {
   const Robot robot = heavy_and_due();
-  EXPECT_DOUBLE_EQ(share_of(robot, Objective::flowtime, of_cost(12.0)), 36.0);
-  EXPECT_DOUBLE_EQ(least_share(robot, Objective::flowtime, 12.0), 36.0);
-  EXPECT_DOUBLE_EQ(cost_with_share(robot, Objective::flowtime, 36.0), 12.0);
+  EXPECT_DOUBLE_EQ(share_of(itinerary_of(robot), Objective::flowtime, of_cost(12.0)), 36.0);
+  EXPECT_DOUBLE_EQ(least_share(itinerary_of(robot), Objective::flowtime, 12.0), 36.0);
+  EXPECT_DOUBLE_EQ(cost_with_share(itinerary_of(robot), Objective::flowtime, 36.0), 12.0);
 }
 
 TEST(ObjectiveShare, OfTardinessCountsDelaysAndHardlyAnyCost) {
   const Robot robot = heavy_and_due();
-  EXPECT_NEAR(share_of(robot, Objective::tardiness, of_cost(17.0)), 6.0, 0.01);
-  EXPECT_NEAR(share_of(robot, Objective::tardiness, of_cost(15.0)), 0.0, 0.01);
-  EXPECT_LT(share_of(robot, Objective::tardiness, of_cost(12.0)),
-            share_of(robot, Objective::tardiness, of_cost(15.0)))
+  EXPECT_NEAR(share_of(itinerary_of(robot), Objective::tardiness, of_cost(17.0)), 6.0, 0.01);
+  EXPECT_NEAR(share_of(itinerary_of(robot), Objective::tardiness, of_cost(15.0)), 0.0, 0.01);
+  EXPECT_LT(share_of(itinerary_of(robot), Objective::tardiness, of_cost(12.0)),
+            share_of(itinerary_of(robot), Objective::tardiness, of_cost(15.0)))
       << "both are in time, so the cost decides";
 }
 
@@ -49,7 +49,7 @@ TEST(ObjectiveShare, OfTardinessCountsTheGoalsOnTheWay) {
   robot.via[0].due = 1.0;
   Trajectory trajectory = of_cost(12.0);
   trajectory.visits = {{0, 3.0, 3.0}};
-  EXPECT_NEAR(share_of(robot, Objective::tardiness, trajectory), 3.0 * 2.0, 0.01);
+  EXPECT_NEAR(share_of(itinerary_of(robot), Objective::tardiness, trajectory), 3.0 * 2.0, 0.01);
 }
 
 TEST(ObjectiveShare, OfAPlanThatStopsCountsTheEstimates) {
@@ -57,7 +57,7 @@ TEST(ObjectiveShare, OfAPlanThatStopsCountsTheEstimates) {
   Trajectory trajectory = of_cost(30.0);
   trajectory.stops_at = 20.0;
   trajectory.estimated_visits = {{0, 25.0, 30.0}};
-  EXPECT_NEAR(share_of(robot, Objective::tardiness, trajectory), 3.0 * 15.0, 0.01);
+  EXPECT_NEAR(share_of(itinerary_of(robot), Objective::tardiness, trajectory), 3.0 * 15.0, 0.01);
 }
 
 TEST(ObjectiveShare, ACostHasNoLessThanItsShare) {
@@ -66,9 +66,9 @@ TEST(ObjectiveShare, ACostHasNoLessThanItsShare) {
       Robot robot = heavy_and_due();
       robot.goal->due = due;
       for (const double cost : {0.5, 14.0, 15.0, 16.0, 500.0}) {
-        const double share = least_share(robot, objective, cost);
-        EXPECT_NEAR(cost_with_share(robot, objective, share), cost, 1e-6) << due;
-        EXPECT_NEAR(share_of(robot, objective, of_cost(cost)), share, 1e-9) << due;
+        const double share = least_share(itinerary_of(robot), objective, cost);
+        EXPECT_NEAR(cost_with_share(itinerary_of(robot), objective, share), cost, 1e-6) << due;
+        EXPECT_NEAR(share_of(itinerary_of(robot), objective, of_cost(cost)), share, 1e-9) << due;
       }
     }
   }

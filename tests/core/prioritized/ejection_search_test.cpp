@@ -30,7 +30,7 @@ Robots ejected_for_robot_0(Planning& p, EjectionSearch& ejection, const Robots& 
 TEST(EjectionSearch, EjectsTheRobotThatFailedLessOften) {
   Planning p = two_gates();
   for (const std::size_t robot : {1u, 2u}) {
-    p.reservations.follow(robot, through({p.instance.robot(robot).start.position}));
+    p.reservations.follow(robot, through({p.instance.problem().robots()[robot].start.position}));
   }
   EjectionSearch ejection(p.state, p.random, p.never);
   EXPECT_EQ(ejected_for_robot_0(p, ejection, {1, 2}, {1, 0, 3}), Robots{1});
@@ -47,7 +47,7 @@ TEST(EjectionSearch, EjectsNoRobotThatCanBeSpared) {
        robot_at(3.5, 1.5).to(3.5, 1.5), robot_at(4.5, 1.5).to(4.5, 1.5)});
   const Robots others{1, 2, 3, 4};
   for (const std::size_t robot : others) {
-    p.reservations.follow(robot, through({p.instance.robot(robot).start.position}));
+    p.reservations.follow(robot, through({p.instance.problem().robots()[robot].start.position}));
   }
   EjectionSearch ejection(p.state, p.random, p.never);
   EXPECT_EQ(ejected_for_robot_0(p, ejection, others, {1, 5, 0, 0, 0}), Robots{1});
@@ -58,12 +58,12 @@ TEST(EjectionSearch, EjectsNoRobotThatCanBeSpared) {
 TEST(EjectionSearch, EjectsARobotLastForWhichOthersWereEjected) {
   Planning p = two_gates();
   for (const std::size_t robot : {1u, 2u}) {
-    p.reservations.follow(robot, through({p.instance.robot(robot).start.position}));
+    p.reservations.follow(robot, through({p.instance.problem().robots()[robot].start.position}));
   }
   EjectionSearch ejection(p.state, p.random, p.never);
   p.reservations.remove(1);
   ASSERT_TRUE(ejection.plan(1, {2}, {0, 1, 0}).trajectory);
-  p.reservations.follow(1, through({p.instance.robot(1).start.position}));
+  p.reservations.follow(1, through({p.instance.problem().robots()[1].start.position}));
   EXPECT_EQ(ejected_for_robot_0(p, ejection, {1, 2}, {1, 1, 3}), Robots{2})
       << "although it failed more often";
 }

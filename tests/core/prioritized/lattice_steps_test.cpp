@@ -143,7 +143,7 @@ TEST(LatticeSteps, RandomFleetsNeverMeet) {
     Planning p = random_fleet(seed);
     const std::vector<std::size_t> robots = p.movers();
     for (std::size_t i = 0; i < p.instance.size(); ++i) {
-      if (!p.instance.robot(i).goal) p.reservations.stay_in_place(i);
+      if (!p.instance.problem().robots()[i].goal) p.reservations.stay_in_place(i);
     }
     auto trajectories = plan_in_steps(p.reservations, robots, p.random, p.never);
     if (!trajectories) continue;  // walls may part them

@@ -56,7 +56,7 @@ TEST(AaSippCommitted, ActionsBeginWithTheCommittedOnes) {
   std::vector<Action> committed = slow_move();
   committed.push_back(committed_wait({{3.5, 2.5}, 0.0}, 4.0, 4.7));
   Planning p(OccupancyGrid(10, 5, 1.0), {with_committed(robot_at(1.5, 2.5).to(3.5, 4.5), committed)});
-  const std::vector<Action> actions = to_actions(p.instance.robot(0), plan_exactly(p));
+  const std::vector<Action> actions = to_actions(p.instance.problem().robots()[0], plan_exactly(p));
   ASSERT_EQ(actions.size(), 4u);
   EXPECT_EQ(actions[0].t_end, 4.0);
   EXPECT_EQ(actions[1].t_end, 4.7);
@@ -72,7 +72,7 @@ TEST(AaSippCommitted, NothingFollowsIfTheyEndAtTheGoal) {
   const Trajectory trajectory = plan_exactly(p);
   EXPECT_EQ(trajectory.moves.size(), 1u);
   EXPECT_EQ(trajectory.cost, 4.0);
-  EXPECT_EQ(to_actions(p.instance.robot(0), trajectory).size(), 1u);
+  EXPECT_EQ(to_actions(p.instance.problem().robots()[0], trajectory).size(), 1u);
 }
 
 TEST(AaSippCommitted, RotatesToTheGoalHeadingAfterThem) {

@@ -159,7 +159,7 @@ TEST(AaSippMoves, LaterArrivalContinuesStraightIfEarlierOneMustWait) {
                                                          {4.2, 17.1}, {4.2, 18.7}, {4.2, 20.3},  {4.2, 21.9}};
   Planning p = with_crossing_robots(crossings, options);
   for (std::size_t k = 1; k < p.instance.size(); ++k) {
-    const auto& robot = p.instance.robot(k);
+    const auto& robot = p.instance.problem().robots()[k];
     p.reservations.follow(k, through({robot.start.position, robot.goal->position}));
   }
   EXPECT_NEAR(plan_first(p).cost, 13.5 + 0.6 * std::sqrt(2.0) + 3.0, 1e-6) << "close behind the first robot";

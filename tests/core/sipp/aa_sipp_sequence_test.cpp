@@ -44,7 +44,7 @@ Planned plan_first(Planning& p, const SearchLimits& limits = kExact) {
   const SearchResult result = p.state.plan(0, limits, p.never);
   EXPECT_TRUE(result.trajectory);
   if (!result.trajectory) return {};
-  const Robot& robot = p.instance.robot(0);
+  const Robot& robot = p.instance.problem().robots()[0];
   p.reservations.follow(0, *result.trajectory);
   expect_safe(p.reservations);
   Planned planned{*result.trajectory, to_actions(robot, *result.trajectory), {}};

@@ -100,11 +100,11 @@ TEST(CostToGo, IsAtLeastLowerBoundOnRandomProblems) {
     Problem problem = support::random_problem(dice, 1);
     const PlanOptions options = support::random_options(dice, problem);
     Planning p(std::move(problem), options);
-    const Robot& robot = p.instance.robot(0);
+    const Robot& robot = p.instance.problem().robots()[0];
     if (!robot.goal || (robot.goal->position - robot.start.position).norm() < 1e-6) continue;
     const auto estimate = from_start(p);
-    const double turn = p.instance.motion(0).rotation_time(robot.start.theta, estimate.heading);
-    const double bound = lower_bound(robot, p.instance.options());
+    const double turn = p.instance.body(0).rotation_time(robot.start.theta, estimate.heading);
+    const double bound = straight_bound(p.instance, 0);
     ASSERT_GE(estimate.seconds + turn, bound - 1e-8);
     if (estimate.straight) {
       ASSERT_NEAR(estimate.seconds + turn, bound, 1e-8);

@@ -6,18 +6,19 @@
 namespace fleetplan::core {
 namespace TEST_FILE {
 
-constexpr Motion kMotion{0.4, 1.0, 0.5, 0.0};  // a radian takes 2 s
-constexpr Motion kMotionWithWait{0.4, 1.0, 0.5, 3.0};
+constexpr Body kBody{.radius = 0.4, .linear_speed = 1.0, .angular_speed = 0.5};  // a radian takes 2 s
+constexpr Body kBodyWithWait{
+    .radius = 0.4, .linear_speed = 1.0, .angular_speed = 0.5, .wait_before_move = 3.0};
 
-DominanceTable table_of(std::size_t count, const Motion& motion, double slack = 0.0) {
+DominanceTable table_of(std::size_t count, const Body& body, double slack = 0.0) {
   DominanceTable table;
-  table.reset(motion, slack);
+  table.reset(body, slack);
   table.set_interval_count(count);
   return table;
 }
 
 TEST(DominanceTable, DominatesFromArrivalPlusRotation) {
-  DominanceTable table = table_of(1, kMotion);
+  DominanceTable table = table_of(1, kBody);
   EXPECT_EQ(table.dominated_from(0, 0.0), kForever);
   table.add(0, 10.0, 0.0);
   EXPECT_DOUBLE_EQ(table.dominated_from(0, 0.0), 10.0);
@@ -28,7 +29,7 @@ TEST(DominanceTable, DominatesFromArrivalPlusRotation) {
 }
 
 TEST(DominanceTable, DominatesOnlyAfterAddedWait) {
-  DominanceTable table = table_of(1, kMotionWithWait);
+  DominanceTable table = table_of(1, kBodyWithWait);
   table.add(0, 10.0, 0.0);
   EXPECT_DOUBLE_EQ(table.dominated_from(0, 0.0), 13.0) << "an arrival that continues straight needs no wait";
   EXPECT_TRUE(table.contains(0, 10.0, 0.0));
@@ -37,13 +38,13 @@ TEST(DominanceTable, DominatesOnlyAfterAddedWait) {
 }
 
 TEST(DominanceTable, DominatesSlightlyEarlierArrivalsWithinSlack) {
-  DominanceTable table = table_of(1, kMotion, 0.25);
+  DominanceTable table = table_of(1, kBody, 0.25);
   table.add(0, 10.0, 0.0);
   EXPECT_DOUBLE_EQ(table.dominated_from(0, 3.0), 9.75);
 }
 
 TEST(DominanceTable, AddRemovesDominatedArrivals) {
-  DominanceTable table = table_of(1, kMotion);
+  DominanceTable table = table_of(1, kBody);
   const ArrivalId turned = table.add(0, 10.0, 1.0);
   const ArrivalId same = table.add(0, 11.0, 0.0);
   const ArrivalId earlier = table.add(0, 9.0, 0.0);
@@ -57,7 +58,7 @@ TEST(DominanceTable, AddRemovesDominatedArrivals) {
 }
 
 TEST(DominanceTable, KeepsIntervalsApart) {
-  DominanceTable table = table_of(2, kMotion);
+  DominanceTable table = table_of(2, kBody);
   const ArrivalId later = table.add(1, 10.0, 0.0);
   table.add(0, 5.0, 0.0);
   EXPECT_FALSE(table.is_dominated(later));
@@ -68,9 +69,9 @@ TEST(DominanceTable, KeepsIntervalsApart) {
 }
 
 TEST(DominanceTable, ResetRemovesAllArrivals) {
-  DominanceTable table = table_of(1, kMotion);
+  DominanceTable table = table_of(1, kBody);
   table.add(0, 5.0, 0.0);
-  table.reset(kMotion, 0.0);
+  table.reset(kBody, 0.0);
   table.set_interval_count(1);
   EXPECT_TRUE(table.empty(0));
 }

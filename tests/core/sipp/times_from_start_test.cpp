@@ -37,7 +37,7 @@ std::vector<double> times_from(const Vertices& vertices, int start) {
       if (seconds == kForever) continue;
       vertices.for_each_neighbour(vertex, [&](int next) {
         const double length = (vertices.position(next) - vertices.position(vertex)).norm();
-        const double through = seconds + vertices.motion().translation_time(length);
+        const double through = seconds + vertices.body().translation_time(length);
         if (through >= times[static_cast<std::size_t>(next)]) return;
         times[static_cast<std::size_t>(next)] = through;
         improved = true;

@@ -124,7 +124,7 @@ TEST(Vertices, LinksOwnVerticesBothWaysWithLatticeInSightWithinTwoCells) {
       const Position there = vertices.position(v);
       if ((there - vertices.position(start)).norm() > 2.0 * p.problem.grid().resolution()) continue;
       const bool seen = p.instance.sight_past_walls().may_sweep(vertices.position(start), there,
-                                                                p.instance.motion(0).wall_radius);
+                                                                p.instance.body(0).wall_radius);
       if (seen) expected.push_back(v);
       const auto back = neighbours(vertices, v);
       ASSERT_EQ(std::binary_search(back.begin(), back.end(), start), seen) << "from vertex " << v;

@@ -6,7 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/instance/instance.h"
+#include "core/bounds/lower_bound.h"
+#include "core/compile/instance.h"
 #include "core/prioritized/plan_state.h"
 #include "core/prioritized/progress_report.h"
 #include "core/runtime/executor.h"
@@ -38,7 +39,7 @@ struct Planning {
   std::vector<std::size_t> movers() const {
     std::vector<std::size_t> movers;
     for (std::size_t i = 0; i < instance.size(); ++i) {
-      if (instance.robot(i).goal) movers.push_back(i);
+      if (!instance.itinerary(i).is_parked()) movers.push_back(i);
     }
     return movers;
   }
@@ -52,6 +53,12 @@ struct Planning {
   CallerThread callers_thread;
   ProgressReport progress{reservations, nullptr};  // no observer
 };
+
+/// The lower bound of a robot with a goal, obstacles ignored.
+inline double straight_bound(const Instance& instance, std::size_t robot) {
+  const Itinerary& itinerary = instance.itinerary(robot);
+  return lower_bound(itinerary, instance.views(robot).bodies(itinerary.goals.size()));
+}
 
 /// Robot 0 has to cross the middle of a hall, where robot 1 is.
 struct CrossedHall : Planning {

@@ -1,4 +1,4 @@
-#include "core/instance/instance.h"
+#include "core/compile/instance.h"
 
 #include <algorithm>
 #include <map>
@@ -45,33 +45,27 @@ Lattices lattices_of(const Problem& problem, const PlanOptions& options) {
   return lattices;
 }
 
-std::vector<Itinerary> itineraries_of(const Problem& problem) {
-  std::vector<Itinerary> itineraries;
-  for (const Robot& robot : problem.robots()) itineraries.push_back(itinerary_of(robot));
-  return itineraries;
-}
-
 /// Where the robots of an instance begin and end; none if only one is planned at a time.
 std::vector<Terminals> terminals(const Instance& instance) {
   std::vector<Terminals> all;
   if (instance.problem().one_at_a_time()) return all;
   const double inflation = instance.options().inflation;
   for (std::size_t i = 0; i < instance.size(); ++i) {
-    const Robot& robot = instance.robot(i);
+    const Itinerary& itinerary = instance.itinerary(i);
     const Lattice& lattice = instance.lattice(i);
     const auto rounding = [&](const Position& p) { return (lattice.snapped(p) - p).norm(); };
-    const LoadedRobot& first = instance.stages(i)[0];
+    const Body& body = instance.body(i);
     Terminals ends;
-    ends.pair_radius = first.motion.pair_radius;
-    ends.inflation = inflation + robot.vicinity;
-    ends.start = robot.committed_end().position;
+    ends.pair_radius = body.pair_radius;
+    ends.inflation = inflation + instance.problem().robots()[i].vicinity;
+    ends.start = itinerary.pose.position;
     ends.start_rounding = rounding(ends.start);
-    ends.radius_at_start = first.load.radius;
-    ends.grows_at_start = growth_at_end(robot, instance.itinerary(i)).has_value();
-    if (robot.goal && !robot.yields()) {
-      ends.goal = robot.goal->position;
+    ends.radius_at_start = body.radius;
+    ends.grows_at_start = growth_at_end(itinerary).has_value();
+    if (!itinerary.is_parked() && !itinerary.yields()) {
+      ends.goal = itinerary.last_goal().position;
       ends.goal_rounding = rounding(*ends.goal);
-      ends.radius_at_goal = last_radius(robot);
+      ends.radius_at_goal = itinerary.last_radius();
     }
     all.push_back(ends);
   }
@@ -81,13 +75,12 @@ std::vector<Terminals> terminals(const Instance& instance) {
 std::shared_ptr<const FixedReservations> fixed_reservations_of(const Instance& instance,
                                                                const StopCondition& stop) {
   const Problem& problem = instance.problem();
-  std::vector<FixedReservations::Robot> robots;
+  std::vector<FixedReservations::Committed> robots;
   for (std::size_t i = 0; i < instance.size(); ++i) {
-    const Robot& robot = instance.robot(i);
     const Itinerary& itinerary = instance.itinerary(i);
-    robots.push_back({instance.stages(i).largest_disk(), robot.start.position, itinerary.pose.position,
-                      itinerary.t_begin, committed_segments(robot, itinerary), robot.radius,
-                      instance.stages(i)[0].load.radius});
+    robots.push_back({instance.views(i).largest_disk(), itinerary.committed.start, itinerary.pose.position,
+                      itinerary.t_begin, committed_segments(itinerary), itinerary.load.radius,
+                      instance.body(i).radius});
   }
   const Contacts& contacts = instance.contacts();
   return std::make_shared<FixedReservations>(problem.grid().width(), problem.grid().height(),
@@ -107,8 +100,8 @@ Instance::Instance(const Problem& problem, const PlanOptions& options,
     : problem_(problem),
       options_(options),
       lattices_(lattices_of(problem, options)),
-      itineraries_(itineraries_of(problem)),
-      stages_(stages_of_robots(problem, options, itineraries_, lattices_, stop)),
+      itineraries_(itineraries_of(problem.robots())),
+      views_(views_of_robots(problem, options, itineraries_, lattices_, stop)),
       contacts_(terminals(*this), options.interval_margin > 0.0),
       fixed_reservations_(std::move(fixed_reservations)) {}
 
@@ -120,41 +113,41 @@ constexpr double kMostOverlap = kContactTolerance + 2.0 * kSamePosition;
 }  // namespace
 
 double radius_at_start(const Instance& instance, std::size_t robot) {
-  const double radius = instance.stages(robot)[0].load.radius;
+  const double radius = instance.body(robot).radius;
   const PlanOptions& options = instance.options();
   const double overlap = std::max(0.0, options.start_overlap - options.inflation);  // of the bare disk
   const double least = std::max(radius - overlap - kMostOverlap, kSmallestDisk * radius);
   return instance.sight(robot).fitting_radius(instance.itinerary(robot).pose.position, least,
-                                              instance.motion(robot).wall_radius);
+                                              instance.body(robot).wall_radius);
 }
 
 double radius_at_goal(const Instance& instance, std::size_t robot, const Position& goal, std::size_t stage) {
-  const double radius = instance.stages(robot)[stage].motion.wall_radius;
+  const double radius = instance.views(robot)[stage].body.wall_radius;
   return instance.sight(robot).fitting_radius(goal, radius - kMostOverlap, radius);
 }
 
 bool fits_at_start(const Instance& instance, std::size_t robot) {
   return instance.sight(robot).disk_fits(instance.itinerary(robot).pose.position,
-                                         instance.motion(robot).wall_radius);
+                                         instance.body(robot).wall_radius);
 }
 
 bool is_clear_at_start(const Instance& instance, std::size_t robot) {
-  return radius_at_start(instance, robot) >= instance.motion(robot).wall_radius - kMostOverlap;
+  return radius_at_start(instance, robot) >= instance.body(robot).wall_radius - kMostOverlap;
 }
 
 bool fits_at_goals(const Instance& instance, std::size_t robot) {
-  const RobotStages& stages = instance.stages(robot);
+  const Views& views = instance.views(robot);
   const std::vector<Goal>& goals = instance.itinerary(robot).goals;
   for (std::size_t k = 0; k < goals.size(); ++k) {
     if (goals[k].anywhere) continue;
-    const double largest = std::max(stages[k].motion.wall_radius, stages[k + 1].motion.wall_radius);
+    const double largest = std::max(views[k].body.wall_radius, views[k + 1].body.wall_radius);
     if (!instance.sight(robot).disk_fits(goals[k].position, largest - kMostOverlap)) return false;
   }
   return true;
 }
 
 bool fits_at(const Instance& instance, std::size_t robot, const Position& position) {
-  return instance.sight(robot).disk_fits(position, instance.motion(robot).wall_radius - kMostOverlap);
+  return instance.sight(robot).disk_fits(position, instance.body(robot).wall_radius - kMostOverlap);
 }
 
 }  // namespace fleetplan::core

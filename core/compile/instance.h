@@ -9,15 +9,14 @@
 
 #include "core/commitments/contacts.h"
 #include "core/commitments/fixed_reservations.h"
+#include "core/compile/views.h"
 #include "core/geometry/position.h"
-#include "core/instance/robot_stages.h"
 #include "core/map/lattice.h"
 #include "core/map/line_of_sight.h"
+#include "core/model/body.h"
 #include "core/model/itinerary.h"
-#include "core/model/motion.h"
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"
-#include "core/model/robot.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
@@ -45,13 +44,13 @@ class Instance {
   std::size_t size() const { return problem_.robots().size(); }
   const Problem& problem() const { return problem_; }
   const PlanOptions& options() const { return options_; }
-  const Robot& robot(std::size_t index) const { return problem_.robots()[index]; }
-  /// What the robot is in the stages of its plan, and how it moves in them.
-  const RobotStages& stages(std::size_t index) const { return stages_[index]; }
-  /// The motion of the robot with the load that it has when its plan begins.
-  const Motion& motion(std::size_t index) const { return stages_[index][0].motion; }
+  /// What the robot is in the stages of its plan, and where it may be then.
+  const Views& views(std::size_t index) const { return views_[index]; }
+  /// The body of the robot with the load that it has when its plan begins.
+  const Body& body(std::size_t index) const { return views_[index][0].body; }
   /// What is left to plan for the robot after its committed actions.
   const Itinerary& itinerary(std::size_t index) const { return itineraries_[index]; }
+  const std::vector<Itinerary>& itineraries() const { return itineraries_; }
   /// The lattice that the robot is planned on.
   const Lattice& lattice(std::size_t index) const { return *lattices_[index]; }
   /// The line of sight of a robot: past walls and the zones that are blocked for it.
@@ -68,7 +67,7 @@ class Instance {
   PlanOptions options_;
   std::vector<std::shared_ptr<const Lattice>> lattices_;  // by robot; those with one spacing share one
   std::vector<Itinerary> itineraries_;                    // by robot
-  std::vector<RobotStages> stages_;                       // by robot
+  std::vector<Views> views_;                              // by robot
   Contacts contacts_;
   std::shared_ptr<const FixedReservations> fixed_reservations_;
 };

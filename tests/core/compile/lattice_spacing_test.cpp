@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "core/instance/instance.h"
+#include "core/compile/instance.h"
 #include "tests/support/problem_builder.h"
 
 namespace fleetplan::core {
