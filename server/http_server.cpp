@@ -49,28 +49,28 @@ HttpServer::ServedPort::ServedPort(HttpServer& server, Steps::Port port, int num
                                    std::size_t max_connections, const RouteTable& routes)
     : steps(port, server.settings_, routes, server.cross_origin_, server.draining_, server.metrics_,
             server.log_),
-      library({server.settings_.host, number, routes, server.log_, server.draining_}),
+      adapter({server.settings_.host, number, server.log_, server.draining_}),
       listener({max_connections, kOpenPerServed * max_connections, server.stop_signal_,
                 [&server, this](int fd) { return server.connect(fd, *this); },
                 [&server](const std::string& what) { server.log_.error(what); },
                 [&server](const std::string& why) { server.fail(why); }}) {}
 
 std::optional<std::string> HttpServer::bind() {
-  if (auto fault = main_.library.bind()) return fault;
+  if (auto fault = main_.adapter.bind()) return fault;
   if (!admin_) return std::nullopt;
-  auto fault = admin_->library.bind();
+  auto fault = admin_->adapter.bind();
   if (fault) *fault += " (--admin-port)";
   return fault;
 }
 
 std::optional<int> HttpServer::admin_port() const {
-  return admin_ ? std::optional(admin_->library.port()) : std::nullopt;
+  return admin_ ? std::optional(admin_->adapter.port()) : std::nullopt;
 }
 
 void HttpServer::run() {
   std::thread admin;
-  if (admin_) admin = std::thread([this] { admin_->listener.run(admin_->library.listening_fd()); });
-  main_.listener.run(main_.library.listening_fd());
+  if (admin_) admin = std::thread([this] { admin_->listener.run(admin_->adapter.listening_fd()); });
+  main_.listener.run(main_.adapter.listening_fd());
   if (admin.joinable()) admin.join();
 }
 
@@ -89,7 +89,7 @@ std::unique_ptr<Connection> HttpServer::connect(int fd, ServedPort& served) {
   return std::make_unique<Connection>(
       fd, ConnectionContext{settings_, served.steps, body_memory_, unsent_answers_, draining_,
                             served.exchanges, stop_signal_,
-                            [&served](Exchange& exchange) { return served.library.answer(exchange); }});
+                            [&served](Exchange& exchange) { return served.adapter.answer(exchange); }});
 }
 
 void HttpServer::fail(const std::string& why) {

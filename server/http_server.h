@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "server/connections/connection.h"
-#include "server/connections/library_server.h"
+#include "server/connections/httplib_adapter.h"
 #include "server/connections/listener.h"
 #include "server/connections/steps.h"
 #include "server/http/answer/unsent_answers.h"
@@ -38,7 +38,7 @@ class HttpServer {
   std::optional<std::string> bind();
 
   /// The bound port, even if the setting was 0.
-  int port() const { return main_.library.port(); }
+  int port() const { return main_.adapter.port(); }
   std::optional<int> admin_port() const;
 
   /// Serves until stop(). Call it after bind().
@@ -79,7 +79,7 @@ class HttpServer {
 
     std::atomic<std::size_t> exchanges{0};
     Steps steps;
-    LibraryServer library;
+    HttplibAdapter adapter;
     Listener listener;
   };
 

@@ -21,7 +21,7 @@
 #include "api/response/draw_plan.h"
 #include "core/runtime/executor.h"
 #include "core/runtime/stop_condition.h"
-#include "server/http/http_library.h"
+#include "server/http/cpp_httplib.h"
 #include "server/jobs/workers.h"
 #include "server/service/service.h"
 

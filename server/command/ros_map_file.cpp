@@ -19,7 +19,7 @@ namespace fleetplan::server {
 
 namespace {
 
-/// The most bytes of a map.yaml, which has some hundred. Aliases are not expanded, and the library limits the
+/// The most bytes of a map.yaml, which has some hundred. Aliases are not expanded, and yaml-cpp limits the
 /// depth.
 constexpr std::size_t kMostYaml = std::size_t{64} << 10;
 /// The most bytes of an image: a request with it in base64 is below the default limit of a server, with room
@@ -223,7 +223,7 @@ api::Result<RosMapFile, InputFault> read_ros_map(const std::string& yaml, std::i
   }
   try {
     return MapReader(yaml, YAML::Load(*text)).read();
-  } catch (const YAML::Exception& error) {  // how the library reports faults of a text
+  } catch (const YAML::Exception& error) {  // how yaml-cpp reports faults of a text
     return input_fault(yaml, line_of(error.mark), "this is not YAML: " + error.msg + '.');
   }
 }

@@ -50,7 +50,7 @@ struct ConnectionContext {
   const std::atomic<bool>& draining;
   std::atomic<std::size_t>& exchanges;  // number of exchanges under way
   const StopSignal& stop;
-  std::function<Sent(Exchange&)> answer;  // has the library answer a request that passed all steps
+  std::function<Sent(Exchange&)> answer;  // answers a request that passed all steps
 };
 
 /// Counts something as under way as long as it lives.

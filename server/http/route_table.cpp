@@ -25,17 +25,6 @@ bool Route::allows(std::string_view sent_method) const {
   return sent_method == method || (method == "GET" && sent_method == "HEAD");
 }
 
-std::string Route::pattern() const {
-  if (contains) return path + ".*";
-  const auto brace = path.find('{');
-  std::string pattern;
-  for (const char c : path.substr(0, brace)) {
-    if (c == '.') pattern += '\\';
-    pattern += c;
-  }
-  return brace == std::string::npos ? pattern : pattern + "(.*)";
-}
-
 void RouteTable::get(std::string path, Handler handler, RouteTraits traits) {
   routes_.push_back({"GET", std::move(path), std::move(handler), std::move(traits)});
 }

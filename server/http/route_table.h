@@ -1,6 +1,6 @@
 #pragma once
 
-// The routes of a port, as routes.cpp declares them. The library's routing, the decision before a body is
+// The routes of a port, as routes.cpp declares them. The handler of a request, the decision before a body is
 // read (404, 405 and its Allow field) and the label of the metrics all come from here.
 
 #include <functional>
@@ -37,16 +37,12 @@ struct Route {
 
   /// The methods as an Allow field lists them.
   std::string_view allowed_methods() const { return takes_body() ? "POST" : "GET, HEAD"; }
-
-  /// Returns `path` with the part in braces, if any, replaced by a regular expression that matches any text;
-  /// all else matches itself only. The pattern of a folder matches all paths below it.
-  std::string pattern() const;
 };
 
 class RouteTable {
  public:
-  /// The most bytes of a path that matches a part in braces, or names a file. The library matches them with
-  /// std::regex, which recurses for every byte and takes about 400 bytes of stack each time.
+  /// The most bytes of a path that matches a part in braces, or names a file. No name is that long, and to
+  /// find a file, every folder on the way is looked up.
   static constexpr std::size_t kMaxVariablePath = 1024;
 
   void get(std::string path, Handler handler, RouteTraits traits = {});

@@ -411,6 +411,22 @@ class Names(unittest.TestCase):
             for path in re.findall(rf"(?<![\w/.@-])((?:{folders})/[\w./-]*\w)", text):
                 self.assertTrue((PROJECT / path).exists(), f"{name} names {path}")
 
+    def test_the_names_of_the_page_of_the_server_are_those_of_files_and_of_the_sources(self):
+        names = set(re.findall(r"`([^`\n]+)`", prose(DOCUMENTS["docs/http.md"])))
+        paths = {name for name in names if re.fullmatch(r"[\w.-]+(/[\w.-]+)+/?", name)}
+        self.assertGreater(len(paths), 10)
+        self.assertEqual([path for path in sorted(paths) if not (PROJECT / path).exists()], [])
+        for number, files, _ in table("docs/http.md", ["", "File", "What happens"]):
+            self.assertNotEqual(code(files), [], number)
+            for file in code(files):
+                self.assertTrue((PROJECT / file).is_file(), f"row {number} names {file}")
+        files = [path for folder in ("server", "tests/fuzz", "tests/server")
+                 for path in (PROJECT / folder).rglob("*") if path.suffix in (".h", ".cpp")]
+        sources = "\n".join(path.stem + "\n" + path.read_text() for path in files)
+        words = {name for name in names if re.fullmatch(r"[a-z]+(_[a-z]+)+|([A-Z][a-z]+){2,}", name)}
+        self.assertGreater(len(words), 10)
+        self.assertEqual([word for word in sorted(words) if not re.search(rf"\b{word}\b", sources)], [])
+
     def test_members_of_classes_that_the_architecture_page_names_exist(self):
         sources = "\n".join(path.read_text() for folder in ("core", "api", "server", "library", "include")
                             for path in (PROJECT / folder).rglob("*.h"))

@@ -1,6 +1,6 @@
 #pragma once
 
-// Answers that the HTTP library does not write: to requests that it never sees, and streams of events.
+// Answers that cpp-httplib does not write: to requests without a handler, and streams of events.
 
 #include <chrono>
 #include <condition_variable>
@@ -28,7 +28,7 @@ struct DirectAnswer {
 DirectAnswer refusal(const Exchange& exchange, api::ErrorCode code, const std::string& detail,
                      HeaderFields fields = {});
 
-/// Returns the header fields of every answer, whether the library writes it or not.
+/// Returns the header fields of every answer, whoever writes it.
 HeaderFields common_fields(const Exchange& exchange);
 
 /// Returns a head, with the empty line that ends it. `further` header fields follow those of every answer.
@@ -38,7 +38,7 @@ std::string answer_head(const Exchange& exchange, int status, const HeaderFields
 std::string answer_text(const Exchange& exchange, const DirectAnswer& answer);
 
 /// The answer to an exchange as a stream of events (WHATWG HTML, server-sent events), each with one line of
-/// data. It bypasses the HTTP library, which would have to know from the start that the answer is a stream.
+/// data. It bypasses cpp-httplib, which would have to know from the start that the answer is a stream.
 ///
 /// After begin() a thread of its own writes. The planner only stores the latest state, so a slow client does
 /// not delay it; such a client skips outdated states. One that is too slow, see WritePatience, loses its

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "server/http/http_library.h"
+#include "server/http/cpp_httplib.h"
 #include "server/http_server.h"
 
 namespace fleetplan::server {

@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "server/http/http_library.h"
+#include "server/http/cpp_httplib.h"
 #include "tests/server/support/soon.h"
 #include "tests/server/support/test_server.h"
 #include "tests/support/temporary_file.h"

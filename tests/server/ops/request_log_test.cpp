@@ -52,7 +52,7 @@ TEST(RequestLog, WritesALineOfJsonForEachEvent) {
 }
 
 TEST(RequestLog, DropsAndCountsLinesThatNobodyReadsWithoutWaiting) {
-  std::signal(SIGPIPE, SIG_IGN);  // like the server's library
+  std::signal(SIGPIPE, SIG_IGN);  // as cpp-httplib does in the server
   Pipe pipe;
   const RequestLog log("info", pipe.writer());
   const std::string message(1000, 'x');

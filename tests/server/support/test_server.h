@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "server/http/http_library.h"
+#include "server/http/cpp_httplib.h"
 #include "server/http_server.h"
 
 namespace fleetplan::server {

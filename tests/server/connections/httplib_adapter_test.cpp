@@ -1,5 +1,5 @@
-// The adapter, with the version of the HTTP library that is installed: requests reach the handlers of their
-// real paths.
+// The adapter, with the version of cpp-httplib that is installed: requests reach the handlers of their real
+// paths.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace TEST_FILE {
 
 constexpr const char* kJsonType = "application/json";
 
-class LibraryRouting : public testing::Test {
+class HttplibAdapterTest : public testing::Test {
  protected:
   std::string detail_of(const std::string& path) {
     const auto result = client.Get(path);
@@ -29,7 +29,7 @@ class LibraryRouting : public testing::Test {
   httplib::Client client = server.client();
 };
 
-TEST_F(LibraryRouting, ReachesTheHandlerOfEveryPath) {
+TEST_F(HttplibAdapterTest, ReachesTheHandlerOfEveryPath) {
   for (const char* path : {"/v1/examples", "/v1/examples/tiny", "/v1/limits", "/v1/openapi.json", "/healthz",
                            "/readyz", "/metrics"}) {
     const auto get = client.Get(path);
@@ -46,7 +46,7 @@ TEST_F(LibraryRouting, ReachesTheHandlerOfEveryPath) {
   }
 }
 
-TEST_F(LibraryRouting, IgnoresTheQueryAndTheWayAPathIsEncoded) {
+TEST_F(HttplibAdapterTest, IgnoresTheQueryAndTheWayAPathIsEncoded) {
   for (const char* target : {"/v1/examples/tiny?verbose=1&x", "/v1/examples/%74iny",
                              "/%76%31/examples/tiny?a", "http://localhost/v1/examples/tiny"}) {
     RawConnection raw(server.server.port());
@@ -57,7 +57,7 @@ TEST_F(LibraryRouting, IgnoresTheQueryAndTheWayAPathIsEncoded) {
   }
 }
 
-TEST_F(LibraryRouting, PassesAnyNameToTheHandlerUnchanged) {
+TEST_F(HttplibAdapterTest, PassesAnyNameToTheHandlerUnchanged) {
   const std::vector<std::pair<std::string, std::string>> names{
       {"a%20b%2Fc", "a b/c"}, {"%25u0041", "%u0041"}, {"%2541", "%41"},           {"a+b", "a+b"},
       {"%3Fx%23y", "?x#y"},   {"..%2F..", "../.."},   {"(.*)[a-z]", "(.*)[a-z]"}, {"", ""}};
@@ -66,13 +66,13 @@ TEST_F(LibraryRouting, PassesAnyNameToTheHandlerUnchanged) {
   }
 }
 
-TEST_F(LibraryRouting, RejectsLongNamesWithoutMatchingThem) {
+TEST_F(HttplibAdapterTest, RejectsLongNamesWithoutMatchingThem) {
   const std::string prefix = "/v1/examples/";
   EXPECT_EQ(detail_of(prefix + std::string(1000, 'a')).find("There is no example 'aaa"), 0U);
   EXPECT_EQ(detail_of(prefix + std::string(8000, 'a')).find("There is no resource at '/v1/exam"), 0U);
 }
 
-TEST_F(LibraryRouting, KeepsTheExchangesOfConcurrentConnectionsApart) {
+TEST_F(HttplibAdapterTest, KeepsTheExchangesOfConcurrentConnectionsApart) {
   std::vector<std::jthread> threads;
   for (int thread = 0; thread < 8; ++thread) {
     threads.emplace_back([this, thread] {
