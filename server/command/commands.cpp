@@ -32,20 +32,21 @@ InputFault input_fault(const std::string& file, std::size_t line, const std::str
   return {api::printable(where + ' ' + detail)};
 }
 
-api::Result<std::string, InputFault> read_file(const std::string& name, std::istream& in, std::size_t most) {
+api::Result<std::string, InputFault> read_file(const std::string& name, std::istream& in,
+                                               std::size_t max_bytes) {
   std::ifstream file;
   if (name != "-") file.open(name, std::ios::binary);
   std::istream& source = name == "-" ? in : file;
   if (name != "-" && !file.is_open()) return input_fault(name, 0, "cannot read the file; does it exist?");
   std::string text;
   std::array<char, std::size_t{1} << 16> part{};
-  while (source && text.size() <= most) {
+  while (source && text.size() <= max_bytes) {
     source.read(part.data(), part.size());
     text.append(part.data(), static_cast<std::size_t>(source.gcount()));
   }
   if (source.bad()) return input_fault(name, 0, "cannot read the file; is it a folder?");
-  if (text.size() > most) {
-    return input_fault(name, 0, "the file has more than " + std::to_string(most) + " bytes.");
+  if (text.size() > max_bytes) {
+    return input_fault(name, 0, "the file has more than " + std::to_string(max_bytes) + " bytes.");
   }
   return text;
 }
@@ -116,7 +117,7 @@ class AllWorkers : public core::Executor {
 };
 
 /// The most time for one picture: more than the largest maps and plans take.
-constexpr std::chrono::seconds kMostForPicture{20};
+constexpr std::chrono::seconds kMaxPictureTime{20};
 
 /// Writes the progress of planning to a terminal, on one line that it overwrites.
 class TerminalProgress : public api::PlanEvents {
@@ -191,10 +192,10 @@ class Pictures {
   void draw(const core::Problem& problem, const core::Plan& plan) {
     using Clock = std::chrono::steady_clock;
     if (!command_.svg.empty()) {
-      svg_ = api::draw_plan(problem, plan, core::StopCondition(Clock::now() + kMostForPicture));
+      svg_ = api::draw_plan(problem, plan, core::StopCondition(Clock::now() + kMaxPictureTime));
     }
     if (!command_.png.empty()) {
-      png_ = api::paint_plan(problem, plan, core::StopCondition(Clock::now() + kMostForPicture));
+      png_ = api::paint_plan(problem, plan, core::StopCondition(Clock::now() + kMaxPictureTime));
     }
   }
 

@@ -42,9 +42,10 @@ struct InputFault {
 /// Makes a fault. `line` is that of the file, from 1; 0: the file as a whole.
 InputFault input_fault(const std::string& file, std::size_t line, const std::string& detail);
 
-/// Reads all of a file, or of `in` for "-". A file of more than `most` bytes is not read to its end.
-api::Result<std::string, InputFault> read_file(const std::string& name, std::istream& in,
-                                               std::size_t most = std::numeric_limits<std::size_t>::max());
+/// Reads all of a file, or of `in` for "-". A file of more than `max_bytes` is not read to its end.
+api::Result<std::string, InputFault> read_file(
+    const std::string& name, std::istream& in,
+    std::size_t max_bytes = std::numeric_limits<std::size_t>::max());
 
 /// Returns the name of an input file for messages.
 std::string shown_name(const std::string& file);

@@ -27,7 +27,7 @@ struct RobotTable {
 };
 
 /// The most bytes of a table. Two thousand robots, which a server accepts by default, have 200 kB.
-constexpr std::size_t kMostTable = std::size_t{4} << 20;
+constexpr std::size_t kMaxTable = std::size_t{4} << 20;
 
 struct Column {
   std::string_view name;
@@ -225,7 +225,7 @@ class TableReader {
 /// Reads a table with a header line (docs/command_line.md has the columns): RFC 4180 without line breaks in
 /// fields, with commas, semicolons or tabs. Fields that are empty are left out of the request.
 api::Result<RobotTable, InputFault> read_robot_table(const std::string& file, std::istream& in) {
-  const auto text = read_file(file, in, kMostTable);
+  const auto text = read_file(file, in, kMaxTable);
   if (!text) return text.failure();
   return TableReader(file).read(*text);
 }

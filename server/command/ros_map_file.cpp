@@ -21,10 +21,10 @@ namespace {
 
 /// The most bytes of a map.yaml, which has some hundred. Aliases are not expanded, and yaml-cpp limits the
 /// depth.
-constexpr std::size_t kMostYaml = std::size_t{64} << 10;
+constexpr std::size_t kMaxYaml = std::size_t{64} << 10;
 /// The most bytes of an image: a request with it in base64 is below the default limit of a server, with room
 /// for robots.
-constexpr std::size_t kMostImage = (api::Limits{}.max_body - (std::size_t{2} << 20)) / 4 * 3;
+constexpr std::size_t kMaxImage = (api::Limits{}.max_body - (std::size_t{2} << 20)) / 4 * 3;
 constexpr std::size_t kOriginLength = 3;
 
 constexpr std::array<std::string_view, 7> kMembers{
@@ -191,7 +191,7 @@ class MapReader {
   void read_image() {
     const std::size_t line = map_.lines["image"];
     std::ifstream none;
-    const auto bytes = read_file(map_.image, none, kMostImage);
+    const auto bytes = read_file(map_.image, none, kMaxImage);
     if (!bytes) {
       const bool is_large = bytes.failure().line.find("more than") != std::string::npos;
       return fail(line, "the image cannot be used: " + bytes.failure().line +
@@ -216,7 +216,7 @@ class MapReader {
 }  // namespace
 
 api::Result<RosMapFile, InputFault> read_ros_map(const std::string& yaml, std::istream& in) {
-  const auto text = read_file(yaml, in, kMostYaml);
+  const auto text = read_file(yaml, in, kMaxYaml);
   if (!text) return text.failure();
   if (text->find('\0') != std::string::npos || text->starts_with("P5") || text->starts_with("\x89PNG")) {
     return input_fault(yaml, 0, "this is not a map.yaml; give the file that names the image.");

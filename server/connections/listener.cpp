@@ -99,12 +99,12 @@ AcceptFault accept_fault(int error) {
 int accept_connection(int listening_fd) {
   /// The most bytes that the kernel takes before they are sent: what a client does not read belongs to
   /// UnsentAnswers.
-  constexpr int kMostUnsent = 128 * 1024;
+  constexpr int kMaxUnsent = 128 * 1024;
   const int fd = ::accept4(listening_fd, nullptr, nullptr, SOCK_CLOEXEC);
   const int yes = 1;
   if (fd < 0) return fd;
   ::setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
-  ::setsockopt(fd, IPPROTO_TCP, TCP_NOTSENT_LOWAT, &kMostUnsent, sizeof kMostUnsent);
+  ::setsockopt(fd, IPPROTO_TCP, TCP_NOTSENT_LOWAT, &kMaxUnsent, sizeof kMaxUnsent);
   return fd;
 }
 
@@ -116,8 +116,8 @@ constexpr std::uint64_t kWake = 1;
 constexpr std::uint64_t kStop = 2;
 constexpr std::uint64_t kFirstId = 3;
 
-constexpr std::size_t kMostEvents = 256;
-constexpr int kMostAccepted = 64;
+constexpr std::size_t kMaxEvents = 256;
+constexpr int kMaxAccepted = 64;
 /// The time between two looks at deadlines: threads park connections without waking the listener.
 constexpr std::chrono::milliseconds kTick{50};
 /// The pause after a fault of accept(), so that a fault that stays takes no CPU.
@@ -167,7 +167,7 @@ void Listener::run(int listening_fd) {
 
 void Listener::handle_events(int listening_fd) {
   const bool has_deadlines = paused_until_ || connections() > 0;
-  std::array<epoll_event, kMostEvents> events{};
+  std::array<epoll_event, kMaxEvents> events{};
   const int count = ::epoll_wait(epoll_fd_, events.data(), static_cast<int>(events.size()),
                                  has_deadlines ? static_cast<int>(kTick.count()) : -1);
   for (int i = 0; i < count; ++i) {
@@ -185,7 +185,7 @@ void Listener::handle_events(int listening_fd) {
 }
 
 void Listener::accept_some(int listening_fd) {
-  for (int i = 0; i < kMostAccepted; ++i) {
+  for (int i = 0; i < kMaxAccepted; ++i) {
     if (connections() >= context_.connections && !make_room()) return pause_accepting(listening_fd);
     const int fd = context_.accept(listening_fd);
     if (fd >= 0) {

@@ -47,7 +47,7 @@ std::uint64_t lines_in(std::string_view text) {
 }  // namespace
 
 struct LogQueue::State {
-  State(int to, std::size_t most_bytes) : fd(to), max_bytes(most_bytes) {}
+  State(int to, std::size_t max) : fd(to), max_bytes(max) {}
 
   /// Writes lines until the queue ends.
   void write() {

@@ -27,8 +27,8 @@ namespace {
 
 constexpr std::size_t kQueuePerWorker = 4;
 constexpr std::size_t kMiB = 1 << 20;
-constexpr std::int64_t kMaxMs = 86'400'000;        // a day
-constexpr std::size_t kMostItems = 1'000'000'000;  // the most items of a request
+constexpr std::int64_t kMaxMs = 86'400'000;       // a day
+constexpr std::size_t kMaxItems = 1'000'000'000;  // the most items of a request
 
 constexpr std::string_view kEnvironmentPrefix = "FLEETPLAN_";
 constexpr const char* kDefaultBudget = "default-budget-ms";
@@ -98,8 +98,8 @@ CLI::Option* add_size(CLI::App& app, const std::string& flag, std::size_t& bytes
 /// Returns the fault of a number of bytes that is not in the range, which `range` says in words.
 std::optional<std::string> size_fault(const std::string& flag, std::size_t bytes, std::size_t least,
                                       const std::string& range) {
-  constexpr std::size_t kMost = std::size_t{1} << 40;
-  if (bytes >= least && bytes <= kMost) return std::nullopt;
+  constexpr std::size_t kMax = std::size_t{1} << 40;
+  if (bytes >= least && bytes <= kMax) return std::nullopt;
   return "--" + flag + " must be " + range;
 }
 
@@ -309,16 +309,16 @@ void add_limit_flags(CLI::App& app, api::Limits& limits) {
            "Most memory of a plan in bytes, from the parsed body to the answer");
   add_number<std::int64_t>(app, "max-cells", limits.max_cells, 1, 1'000'000'000, "Most cells of a map");
   add_number<std::size_t>(app, "max-robots", limits.max_robots, 1, 1'000'000, "Most robots of a request");
-  add_number<std::size_t>(app, "max-goals", limits.max_goals, 1, kMostItems,
+  add_number<std::size_t>(app, "max-goals", limits.max_goals, 1, kMaxItems,
                           "Most goals in lists of a request");
-  add_number<std::size_t>(app, "max-actions", limits.max_actions, 1, kMostItems,
+  add_number<std::size_t>(app, "max-actions", limits.max_actions, 1, kMaxItems,
                           "Most committed and previous actions of a request");
   add_number<std::size_t>(app, "max-obstacles", limits.max_obstacles, 1, 1'000'000,
                           "Most moving obstacles of a request");
-  add_number<std::size_t>(app, "max-obstacle-entries", limits.max_obstacle_entries, 1, kMostItems,
+  add_number<std::size_t>(app, "max-obstacle-entries", limits.max_obstacle_entries, 1, kMaxItems,
                           "Most entries of the motion of all obstacles");
   add_number<std::size_t>(app, "max-zones", limits.max_zones, 1, 1'000'000, "Most zones of a request");
-  add_number<std::size_t>(app, "max-zone-corners", limits.max_zone_corners, 3, kMostItems,
+  add_number<std::size_t>(app, "max-zone-corners", limits.max_zone_corners, 3, kMaxItems,
                           "Most corners of the polygons of all zones");
   add_number(app, "max-depth", limits.max_depth, 4, 512, "Deepest nesting of the JSON");
   add_number<std::int64_t>(app, kDefaultBudget, limits.default_budget_ms, 1, kMaxMs,

@@ -49,7 +49,7 @@ void UnsentAnswers::make_room(std::size_t bytes, const Answer& newest) {
     if ((a == &newest) != (b == &newest)) return b == &newest;
     return a->accepted_at_ < b->accepted_at_;
   };
-  while (stats_.bytes > 0 && bytes + stats_.bytes > most_) {
+  while (stats_.bytes > 0 && bytes + stats_.bytes > max_bytes_) {
     Answer& slowest = **std::min_element(held_.begin(), held_.end(), before);
     if (&slowest == &newest) return;
     {

@@ -21,7 +21,7 @@ class UnsentAnswers {
   class Answer;
 
   /// Keeps at most `most` bytes of all answers together, or of the newest answer alone if that is larger.
-  explicit UnsentAnswers(std::size_t most) : most_(most) {}
+  explicit UnsentAnswers(std::size_t max_bytes) : max_bytes_(max_bytes) {}
 
   struct Stats {
     std::size_t bytes = 0;      // bytes held now
@@ -36,7 +36,7 @@ class UnsentAnswers {
   void forget_locked(Answer& answer);
   void make_room(std::size_t bytes, const Answer& newest);
 
-  const std::size_t most_;
+  const std::size_t max_bytes_;
   mutable std::mutex mutex_;  // guards all below; locked before that of an answer
   Stats stats_;
   std::vector<Answer*> held_;

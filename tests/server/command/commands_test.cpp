@@ -254,8 +254,8 @@ TEST(Commands, TakeTheLimitsOfTheServiceFromFlagsAndTheEnvironment) {
   EXPECT_EQ(run({"plan", "--max-robots=2", "--workers=3"}, request(".......")).code, kSolved);
   Json improved = Json::parse(request("......."));
   improved["options"] = {{"mode", "anytime"}, {"time_budget_ms", 1000}, {"max_iterations", 1}};
-  const auto warnings = [&](const char* most) {
-    const auto outcome = run({"plan", "--max-robots=2", "--max-budget-ms", most}, improved.dump());
+  const auto warnings = [&](const char* max) {
+    const auto outcome = run({"plan", "--max-robots=2", "--max-budget-ms", max}, improved.dump());
     return Json::parse(outcome.out)["warnings"].size();
   };
   EXPECT_EQ(warnings("999"), warnings("1000") + 1);  // that the budget was clamped
