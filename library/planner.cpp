@@ -1,5 +1,3 @@
-#include "core/planner.h"
-
 #include <fleetplan/fleetplan.h>
 #include <fleetplan/planner.h>
 #include <fleetplan/verify.h>
@@ -10,9 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/checked_plan.h"
 #include "core/model/objective_share.h"
-#include "core/replan/kept_plans.h"
+#include "core/plan/make_plan.h"
 #include "core/runtime/executor.h"
 #include "core/runtime/stop_condition.h"
 #include "core/verify/verify.h"
@@ -24,7 +21,7 @@ namespace {
 
 using Clock = core::StopCondition::Clock;
 
-/// The most time after the budget for the check, and for the decision whether previous plans are kept.
+/// The most time for the check after the budget: there is nobody else who waits.
 constexpr std::chrono::milliseconds kPatience{500};
 
 /// Returns the end of a time budget that may be very long.
@@ -33,7 +30,7 @@ Clock::time_point end_of(std::chrono::nanoseconds budget, Clock::time_point begi
   return budget >= left ? Clock::time_point::max() : begin + budget;
 }
 
-class Reporter : public core::Observer {
+class Reporter : public core::PlanObserver {
  public:
   explicit Reporter(const std::function<void(const Progress&)>& progress) : progress_(progress) {}
 
@@ -43,22 +40,20 @@ class Reporter : public core::Observer {
     progress_(told);
   }
   bool wants_plan() override { return false; }
-  void show(const core::Plan& /*plan*/) override {}
+  void show(const core::CheckedPlan& /*plan*/) override {}
 
  private:
   const std::function<void(const Progress&)>& progress_;
 };
 
-core::Plan planned(const core::Problem& problem, const core::PlanOptions& options,
-                   const core::StopCondition& stop, const Control& control) {
-  if (stop.met() && !core::have_previous_plans(problem.robots())) {
-    const auto patience = stop.even_if_cancelled(Clock::now() + kPatience);
-    return core::plan_without_search(problem, options, "Planning was stopped before it began.", patience);
-  }
+core::MadePlan planned(core::PlanTask task, const core::StopCondition& stop, const Control& control) {
   core::CallerThread thread;
-  if (!control.progress) return core::plan(problem, options, stop, thread);
   Reporter reporter(control.progress);
-  return core::plan(problem, options, stop, thread, &reporter);
+  return core::make_plan(std::move(task),
+                         {.stop = stop,
+                          .patience = {kPatience, kPatience, kPatience, /*despite_cancel=*/true},
+                          .executor = thread,
+                          .observer = control.progress ? &reporter : nullptr});
 }
 
 /// Returns the plan of a call whose stop is requested while the problem is read.
@@ -86,29 +81,20 @@ Plan plan(const Problem& problem, const Options& options, const Control& control
   if (!made.faults.empty()) throw InvalidProblem(std::move(made.faults));
   if (!made.problem) return nothing_planned(problem.robots.size());
 
-  const core::PlanOptions core_options = library::options_of(options, library::in_motion(problem));
+  core::PlanTask task{std::move(*made.problem), library::options_of(options, library::in_motion(problem))};
   const core::StopCondition stop(end_of(options.time_budget, begin), control.stop);
-  const Clock::time_point started = Clock::now();
-  const core::Plan found = planned(*made.problem, core_options, stop, control);
-  const double seconds = std::chrono::duration<double>(Clock::now() - started).count();
-  const auto patience = [&] {
-    const Clock::time_point now = Clock::now();
-    return stop.even_if_cancelled(control.stop.stop_requested() ? now + kPatience
-                                                                : std::max(stop.deadline(), now + kPatience));
-  };
-  const core::CheckOfPlan check = core::check(found, *made.problem, core_options, patience(), patience);
-  const core::Plan& checked = check.checked(found);
-  const auto& report = check.report;
-  Plan plan = library::plan_of(checked, problem);
-  plan.objective_value = core::objective_value(checked, made.problem->robots(), core_options.objective);
-  plan.search.seconds = seconds;
-  if (!report) return plan;
-  if (!report->valid()) {
+  const core::MadePlan found = planned(std::move(task), stop, control);
+  Plan plan = library::plan_of(found.plan, problem);
+  plan.objective_value =
+      core::objective_value(found.plan, found.task.problem.robots(), found.task.options.objective);
+  plan.search.seconds = std::chrono::duration<double>(found.times.planned - found.times.begun).count();
+  if (!found.report) return plan;
+  if (!found.report->valid()) {
     throw std::logic_error("fleetplan made a plan that its checker rejects: " +
-                           report->violations.front().detail);
+                           found.report->violations.front().detail);
   }
   plan.verified = true;
-  plan.min_clearance = report->min_clearance;
+  plan.min_clearance = found.report->min_clearance;
   return plan;
 }
 

@@ -2,26 +2,23 @@
 
 // All endpoints that need the planner or its data: functions from a body to a reply, without any socket.
 
-#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "api/endpoints/request_context.h"
 #include "api/response/reply.h"
-#include "core/planner.h"
+#include "core/plan/make_plan.h"
 
 namespace fleetplan::api {
 
-/// The planner: core::plan, or a stub in tests.
-using Planner = std::function<core::Plan(const core::Problem&, const core::PlanOptions&,
-                                         const core::StopCondition&, core::Observer*)>;
+using core::Planner;
 
 /// POST /v1/plan: parse -> plan -> verify -> write. Never throws for what a client sent; a plan that the
 /// checker rejects becomes a 500. Reports progress to the context's events.
 Reply plan_endpoint(std::string_view body, const RequestContext& context);
 
-/// POST /v1/plan with any planner.
+/// POST /v1/plan with any planner; empty: core::plan.
 Reply plan_with(const Planner& planner, std::string_view body, const RequestContext& context);
 
 /// POST /v1/validate: checks plans from any source.

@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
-#include <functional>
-#include <new>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,17 +13,13 @@
 #include "api/request/parse_request.h"
 #include "api/response/reply.h"
 #include "api/response/write_response.h"
-#include "core/checked_plan.h"
 #include "core/compile/instance.h"
 #include "core/model/objective_share.h"
 #include "core/model/plan.h"
+#include "core/plan/make_plan.h"
 #include "core/prioritized/narrow_places.h"
-#include "core/replan/kept_plans.h"
 #include "core/runtime/executor.h"
-#include "core/runtime/memory_lack.h"
-#include "core/runtime/shared_turn.h"
 #include "core/runtime/stop_condition.h"
-#include "core/travel/goal_choice.h"
 #include "core/verify/verify.h"
 
 namespace fleetplan::api {
@@ -54,30 +48,17 @@ std::chrono::nanoseconds for_answer(const PlanRequest& request) {
   return std::min<std::chrono::nanoseconds>(request.budget / 20, most);
 }
 
-/// Returns when to give up the check: soon after the end of planning, but not before it has had the CPU time
-/// that a thousand robots with few moves need. A plan that was cancelled, as the service drains, may still be
-/// checked quickly.
-core::StopCondition check_stop(const core::StopCondition& planning, const PlanRequest& request) {
+/// Returns how long the check may take: soon after the end of planning, it is given up. Less if the plan was
+/// cancelled, as the service drains. The check of an answer in which no robot moves, if there is no other
+/// answer, ends not too soon after the budget: the time for reading the request tells how large it is and how
+/// busy the machine.
+core::CheckPatience patience_of(const PlanRequest& request, const StageTimes& stages) {
   constexpr std::chrono::milliseconds kMostAfterPlanning{90};
-  constexpr std::chrono::milliseconds kLeastCpu{25};
-  if (planning.cancelled()) {
-    return planning.even_if_cancelled(StageTimes::Clock::now() + kMostAfterPlanning / 2);
-  }
-  if (planning.deadline() == StageTimes::Clock::time_point::max()) return planning;
-  const auto most = std::max<std::chrono::nanoseconds>(kMostAfterPlanning, for_answer(request));
-  return planning.until(planning.deadline() + most).with_cpu_time(kLeastCpu);
-}
-
-/// Returns when to give up the check of an answer in which no robot moves, if there is no other answer: with
-/// the budget, and not too soon after it. The time for reading the request tells how large it is and how busy
-/// the machine.
-core::StopCondition last_stop(const StageTimes& stages, const core::StopCondition& planning,
-                              const PlanRequest& request) {
-  constexpr StageTimes::Clock::duration kLeast = std::chrono::milliseconds(200);
-  const auto patience = StageTimes::Clock::now() + std::max(kLeast, stages.parsed - stages.received);
-  if (planning.cancelled()) return planning.even_if_cancelled(patience).despite_memory();
-  const core::StopCondition check = check_stop(planning, request);
-  return planning.until(std::max(patience, check.deadline())).despite_memory();
+  constexpr std::chrono::milliseconds kLeastForNobody{200};
+  const auto reading = stages.parsed - stages.received;
+  return {.after_planning = std::max<std::chrono::nanoseconds>(kMostAfterPlanning, for_answer(request)),
+          .if_cancelled = kMostAfterPlanning / 2,
+          .for_nobody = std::max<StageTimes::Clock::duration>(kLeastForNobody, reading)};
 }
 
 /// Returns the 422 for a request whose robots and moving obstacles take too long to compare with each other.
@@ -95,34 +76,34 @@ Reply unchecked(PlanOutcome outcome, bool has_obstacles, const std::string& requ
 }
 
 /// Returns the spacings of the lattices by robot, metres; none if all are simply the map's resolution.
-std::vector<double> reported_spacings(const PlanRequest& request) {
-  std::vector<double> spacings = core::lattice_spacings(request.problem, request.options);
-  const double resolution = request.problem.grid().resolution();
+std::vector<double> reported_spacings(const core::PlanTask& task) {
+  std::vector<double> spacings = core::lattice_spacings(task.problem, task.options);
+  const double resolution = task.problem.grid().resolution();
   const bool is_plain =
-      !request.options.lattice_spacing &&
+      !task.options.lattice_spacing &&
       std::all_of(spacings.begin(), spacings.end(), [&](double spacing) { return spacing == resolution; });
   return is_plain ? std::vector<double>() : spacings;
 }
 
 /// Returns the dependencies of the answer; none if they are not asked for. They have to be made within the
 /// budget.
-std::optional<PlanDependencies> answer_dependencies(const core::Plan& plan, const PlanRequest& request,
-                                                    const StageTimes& stages,
-                                                    const core::StopCondition& planning) {
+std::optional<PlanDependencies> answer_dependencies(const core::CheckedPlan& made, const PlanRequest& request,
+                                                    const StageTimes& stages) {
   if (!request.dependencies.wanted) return std::nullopt;
-  const core::StopCondition stop = planning.until(stages.received + request.budget);
-  return plan_dependencies(request.problem.robots(), plan.plans, request.dependencies, core::kMostTolerance,
-                           !request.problem.obstacles().empty(), stop);
+  const core::Problem& problem = made.task.problem;
+  const core::StopCondition stop = made.planning.until(stages.received + request.budget);
+  return plan_dependencies(problem.robots(), made.plan.plans, request.dependencies, core::kMostTolerance,
+                           !problem.obstacles().empty(), stop);
 }
 
 /// Returns the value of the objective; none where the flowtime or the makespan of the answer has it.
-std::optional<double> objective_value(const core::Plan& plan, const PlanRequest& request) {
-  const std::vector<core::Robot>& robots = request.problem.robots();
-  const core::PlanOptions::Objective objective = request.options.objective;
+std::optional<double> objective_value(const core::CheckedPlan& made) {
+  const std::vector<core::Robot>& robots = made.task.problem.robots();
+  const core::PlanOptions::Objective objective = made.task.options.objective;
   const bool is_told =
       objective == core::PlanOptions::Objective::tardiness ||
       std::any_of(robots.begin(), robots.end(), [](const core::Robot& robot) { return robot.weight != 1.0; });
-  return is_told ? std::optional(core::objective_value(plan, robots, objective)) : std::nullopt;
+  return is_told ? std::optional(core::objective_value(made.plan, robots, objective)) : std::nullopt;
 }
 
 std::vector<std::string> joined(std::vector<std::string> warnings, const std::vector<std::string>& more) {
@@ -145,41 +126,37 @@ std::vector<std::string> stuck_warning(const core::Plan& plan, const std::vector
           ". blocked_by of their plans has the robots that are in their way."};
 }
 
-/// Checks a plan and writes the answer. A plan that the checker rejects is a bug and becomes a 500. If the
-/// check is not finished soon after `stop`, by which the plan was made, the answer has no plan for robots
-/// that move: a plan that is not checked is never returned. `stages`: those before the plan was made.
-/// `on_answer`, which may be empty, gets the plan of the answer.
-Reply plan_answer(const core::Plan& plan, const PlanRequest& request, const std::string& request_id,
-                  StageTimes stages, const core::StopCondition& stop, const AnsweredPlan& on_answer) {
-  stages.planned = StageTimes::Clock::now();
-  const core::CheckOfPlan check =
-      core::check(plan, request.problem, request.options, check_stop(stop, request).despite_memory(),
-                  [&] { return last_stop(stages, stop, request); });
-  const core::Plan& answered = check.checked(plan);
-  const auto& report = check.report;
+/// Writes the answer with a plan that has been checked. One that the checker rejects is a bug and becomes a
+/// 500. If the check was not finished, there is no answer: a plan that is not checked is never returned.
+/// `stages`: those before the plan was made. `on_answer`, which may be empty, gets the plan of the answer.
+Reply plan_answer(const core::CheckedPlan& made, const PlanRequest& request, const std::string& request_id,
+                  StageTimes stages, const AnsweredPlan& on_answer) {
+  stages.planned = made.times.planned;
+  const core::Problem& problem = made.task.problem;
+  const auto& report = made.report;
   const PlanOutcome outcome =
-      outcome_of(answered, std::chrono::duration<double>(stages.planned - stages.started).count());
-  if (!report && stop.cancelled()) return problem_reply(ErrorCode::draining, kDrainingDetail, request_id);
-  if (!report) return unchecked(outcome, !request.problem.obstacles().empty(), request_id);
+      outcome_of(made.plan, std::chrono::duration<double>(stages.planned - stages.started).count());
+  if (!report && made.planning.cancelled())
+    return problem_reply(ErrorCode::draining, kDrainingDetail, request_id);
+  if (!report) return unchecked(outcome, !problem.obstacles().empty(), request_id);
   if (!report->valid()) return rejected(outcome, *report, request_id);
-  const auto dependencies = answer_dependencies(answered, request, stages, stop);
-  std::vector<std::string> warnings =
-      joined(request.warnings, stuck_warning(answered, request.problem.robots()));
+  const auto dependencies = answer_dependencies(made, request, stages);
+  std::vector<std::string> warnings = joined(request.warnings, stuck_warning(made.plan, problem.robots()));
   if (dependencies) warnings = joined(std::move(warnings), dependencies->warnings);
   stages.verified = StageTimes::Clock::now();
-  if (on_answer) on_answer(request.problem, answered);
+  if (on_answer) on_answer(problem, made.plan);
   const VerifiedPlan verified{
-      .plan = answered,
+      .plan = made.plan,
       .report = *report,
-      .problem = request.problem,
+      .problem = problem,
       .received = request.received,
       .origin = request.frame.origin,
       .warnings = warnings,
       .metadata = request.metadata,
-      .lattice_spacings = reported_spacings(request),
+      .lattice_spacings = reported_spacings(made.task),
       .dependencies = dependencies ? &dependencies->made : nullptr,
-      .objective_value = objective_value(answered, request),
-      .narrow_places = core::narrow_places(request.problem, request.options, answered.unplanned, stop)};
+      .objective_value = objective_value(made),
+      .narrow_places = core::narrow_places(problem, made.task.options, made.plan.unplanned, made.planning)};
   std::string text = write_response(verified, request_id, stages);
   return {.status = 200, .content_type = kJson, .body = std::move(text), .outcome = outcome};
 }
@@ -227,85 +204,6 @@ TurnNeed need_of(const PlanRequest& request, const core::StopCondition& stop, co
           .is_short = is_short};
 }
 
-/// Returns the end of planning, after which the answer is checked; later if there are previous plans.
-core::StopCondition end_of_planning(const core::StopCondition& stop, const PlanRequest& request) {
-  if (!core::have_previous_plans(request.problem.robots())) return stop;
-  return stop.until(std::max(stop.deadline(), Clock::now()) + core::kMostForPrevious);
-}
-
-/// Returns the planner's plan, or one that needs no search if the memory does not suffice for any other.
-core::Plan plan_or_none(const Planner& planner, const PlanRequest& request, const core::StopCondition& stop,
-                        core::Observer* observer) {
-  const std::int64_t lacks = core::memory_lacks();
-  try {
-    return planner(request.problem, request.options, stop, observer);
-  } catch (const std::bad_alloc&) {
-    if (core::memory_lacks() > lacks) throw;
-    const auto patience =
-        stop.even_if_cancelled(std::max(stop.deadline(), Clock::now()) + core::kMostForPrevious);
-    return core::plan_without_search(request.problem, request.options, core::kMemorySpent,
-                                     patience.despite_memory());
-  }
-}
-
-/// The part of the time for planning in which poses are chosen for goals that may be served at several.
-constexpr double kShareForChoices = 0.25;
-
-/// Chooses the poses for open goals by how long robots take. Returns false if that was not finished in time;
-/// then they keep those that are near.
-bool choose_poses_by_arrival(PlanRequest& request, const core::StopCondition& planning,
-                             core::Executor& executor) {
-  if (!request.open) return true;
-  const core::StopCondition stop = core::after_share(planning, kShareForChoices);
-  bool finished = false;
-  try {
-    auto problem = core::choose_by_arrival(request.problem, request.options, request.open->robots,
-                                           request.open->goals, finished, stop, executor);
-    if (problem) request.problem = std::move(*problem);
-  } catch (const std::bad_alloc&) {  // not granted to the job
-    finished = false;
-  }
-  tell_choices(request);
-  return finished;
-}
-
-/// How often other poses are tried for robots that have no plan with theirs.
-constexpr int kMostSecondChoices = 2;
-
-/// Makes robots that are unplanned because of others give up their poses. Returns whether any of them may get
-/// another one.
-bool give_up_poses(const core::Plan& plan, PlanRequest& request) {
-  bool any = false;
-  for (const core::Unplanned& robot : plan.unplanned) {
-    if (robot.reason != core::Unplanned::Reason::blocked_by_robots) continue;
-    any = core::give_up_poses(request.open->goals[robot.robot]) || any;
-  }
-  return any;
-}
-
-/// Returns the plan, or one with other poses for open goals in which fewer robots are unplanned; then the
-/// request has these poses.
-core::Plan with_other_poses(core::Plan plan, PlanRequest& request, const core::StopCondition& stop,
-                            core::Executor& executor,
-                            const std::function<core::Plan(const PlanRequest&)>& plan_anew) {
-  for (int k = 0; request.open && !plan.unplanned.empty() && k < kMostSecondChoices; ++k) {
-    PlanRequest other = request;
-    if (!give_up_poses(plan, other)) break;
-    if (stop.met() || !choose_poses_by_arrival(other, stop, executor)) {
-      plan.deterministic = false;
-      break;
-    }
-    core::Plan with_others = plan_anew(other);
-    if (with_others.unplanned.size() >= plan.unplanned.size()) {
-      plan.deterministic = plan.deterministic && with_others.deterministic;
-      break;
-    }
-    plan = std::move(with_others);
-    request = std::move(other);
-  }
-  return plan;
-}
-
 Reply planned(const Planner& planner, std::string_view body, const RequestContext& context,
               core::Work& work) {
   StageTimes stages{
@@ -316,9 +214,9 @@ Reply planned(const Planner& planner, std::string_view body, const RequestContex
   stages.parsed = Clock::now();
 
   const core::StopCondition stop = work.before_end(kept_for_answer(*request, stages.parsed - begin));
-  const auto answer = [&](const core::Plan& plan, const AnsweredPlan& on_answer) {
-    return plan_answer(plan, *request, context.request_id, stages, end_of_planning(stop, *request),
-                       on_answer);
+  const auto answer = [&](const core::CheckedPlan& made, const AnsweredPlan& on_answer) {
+    if (made.task.open) tell_choices(made.task.open->goals, request->received);
+    return plan_answer(made, *request, context.request_id, stages, on_answer);
   };
   work.end_reading();
   const bool has_turn = context.turn == nullptr || context.turn->request(need_of(*request, stop, context));
@@ -328,7 +226,7 @@ Reply planned(const Planner& planner, std::string_view body, const RequestContex
     const std::size_t robots = request->problem.robots().size();
     context.events->begin({robots});
     reporter.emplace(*context.events, robots, stop.deadline(),
-                     [&](const core::Plan& better) { return answer(better, {}); });
+                     [&](const core::CheckedPlan& better) { return answer(better, {}); });
   }
   const bool has_come = context.turn == nullptr || context.turn->await();
   stages.started = Clock::now();
@@ -336,39 +234,25 @@ Reply planned(const Planner& planner, std::string_view body, const RequestContex
     return problem_reply(ErrorCode::draining, kDrainingDetail, context.request_id);
   }
   if (!has_come) return too_busy(context.request_id);
-  // Previous plans that hold are kept whatever the budget.
-  if (stop.met() && !core::have_previous_plans(request->problem.robots())) {
-    const auto patience = stop.even_if_cancelled(Clock::now() + core::kMostForPrevious);
-    Reply reply =
-        answer(core::plan_without_search(request->problem, request->options,
-                                         "The time budget was spent before planning could begin.", patience),
-               context.answered);
-    if (reply.outcome) reply.outcome->plan_seconds.reset();
-    return reply;
-  }
   core::CallerThread callers_thread;
-  core::Executor& executor = context.executor != nullptr ? *context.executor : callers_thread;
-  core::SharedTurn turn(stop, [&] { return share_turn(context.turn); });
-  const core::StopCondition shared = turn.stop();
-  const bool is_chosen = choose_poses_by_arrival(*request, shared, executor);
-  const auto plan_with_poses = [&](const PlanRequest& one) {
-    return plan_or_none(planner, one, shared, reporter ? &*reporter : nullptr);
-  };
-  core::Plan plan = with_other_poses(plan_with_poses(*request), *request, shared, executor, plan_with_poses);
-  plan.deterministic = plan.deterministic && is_chosen;
-  return reporter && reporter->rejection() ? *reporter->rejection() : answer(plan, context.answered);
+  core::PlanMeans means{.stop = stop,
+                        .patience = patience_of(*request, stages),
+                        .executor = context.executor != nullptr ? *context.executor : callers_thread,
+                        .observer = reporter ? &*reporter : nullptr,
+                        .planner = planner};
+  if (context.turn != nullptr) means.go_on = [&] { return share_turn(context.turn); };
+  core::PlanTask task{std::move(request->problem), request->options, std::move(request->open)};
+  const core::MadePlan made = core::make_plan(std::move(task), means);
+  if (reporter && reporter->rejection()) return *reporter->rejection();
+  Reply reply = answer(made.checked(), context.answered);
+  if (reply.outcome && !made.is_searched) reply.outcome->plan_seconds.reset();
+  return reply;
 }
 
 }  // namespace
 
 Reply plan_endpoint(std::string_view body, const RequestContext& context) {
-  core::CallerThread callers_thread;
-  core::Executor& executor = context.executor != nullptr ? *context.executor : callers_thread;
-  const auto planner = [&](const core::Problem& problem, const core::PlanOptions& options,
-                           const core::StopCondition& stop, core::Observer* observer) {
-    return core::plan(problem, options, stop, executor, observer);
-  };
-  return plan_with(planner, body, context);
+  return plan_with({}, body, context);
 }
 
 Reply plan_with(const Planner& planner, std::string_view body, const RequestContext& context) {

@@ -52,7 +52,7 @@ bool ProgressReporter::wants_plan() {
   return !rejection_ && now >= next_ && now < deadline_ - kQuietEnd;
 }
 
-void ProgressReporter::show(const core::Plan& plan) {
+void ProgressReporter::show(const core::CheckedPlan& plan) {
   const auto begin = Clock::now();
   Reply reply = make_answer_(plan);
   if (reply.status == 200) {

@@ -18,6 +18,7 @@
 #include "core/model/plan.h"
 #include "core/model/problem.h"
 #include "core/model/progress.h"
+#include "core/plan/make_plan.h"
 #include "core/runtime/executor.h"
 #include "core/runtime/stop_condition.h"
 
@@ -55,10 +56,10 @@ std::string write_progress(const PlanProgress& progress, double elapsed_ms);
 
 /// Turns the planner's progress into events, and its better plans into answers: at most one a second, less
 /// often where making one takes long, and none shortly before the final one.
-class ProgressReporter final : public core::Observer {
+class ProgressReporter final : public core::PlanObserver {
  public:
   using Clock = std::chrono::steady_clock;
-  using MakeAnswer = std::function<Reply(const core::Plan&)>;
+  using MakeAnswer = std::function<Reply(const core::CheckedPlan&)>;
 
   /// The least pause after an answer, and the least factor of the pause to the time that making the answer
   /// took.
@@ -67,13 +68,14 @@ class ProgressReporter final : public core::Observer {
   /// No answer is made in this last part of the time for planning.
   static constexpr std::chrono::milliseconds kQuietEnd{250};
 
-  /// Planning ends at `deadline`. `make_answer` checks a plan and writes the answer, or rejects it.
+  /// Planning ends at `deadline`. `make_answer` writes the answer with a plan, or rejects
+  /// it.
   ProgressReporter(PlanEvents& events, std::size_t robots, Clock::time_point deadline,
                    MakeAnswer make_answer);
 
   void progressed(const core::Progress& progress) override;
   bool wants_plan() override;
-  void show(const core::Plan& plan) override;
+  void show(const core::CheckedPlan& plan) override;
 
   /// The 500 for a plan that the checker rejected; none if it rejected none.
   const std::optional<Reply>& rejection() const { return rejection_; }

@@ -24,7 +24,7 @@ namespace {
 
 struct MadeProblem {
   core::Problem problem;
-  std::optional<OpenFleet> open;  // if any goals are open
+  std::optional<core::OpenFleet> open;  // if any goals are open
   /// The faults of each invalid robot; empty lists for the others, or no lists at all.
   std::vector<std::vector<Fault>> errors;
 };
@@ -146,9 +146,9 @@ class ProblemMaker {
     make_invalid(robot, place.described_fault(code, detail));
   }
 
-  std::optional<OpenFleet> open_fleet() {
+  std::optional<core::OpenFleet> open_fleet() {
     if (!any_open_) return std::nullopt;
-    return OpenFleet{std::move(robots_), std::move(open_)};
+    return core::OpenFleet{std::move(robots_), std::move(open_)};
   }
 
   /// Whether invalid robots are reported. A request with other faults is refused anyway.
@@ -290,16 +290,14 @@ std::optional<PlanRequest> parse_plan_request(const JsonReader& request, const L
                    .metadata = std::move(fleet.metadata),
                    .dependencies = requested_dependencies(fleet),
                    .open = std::move(made->open)};
-  tell_choices(read);
+  if (read.open) tell_choices(read.open->goals, read.received);
   return read;
 }
 
-void tell_choices(PlanRequest& request) {
+void tell_choices(const core::OpenGoals& open, std::vector<ReceivedRobot>& received) {
   // A request with robots that have no place is refused; there are goals of the others only.
-  if (!request.open || request.open->goals.size() != request.received.size()) return;
-  for (std::size_t k = 0; k < request.received.size(); ++k) {
-    request.received[k].choices = choices_of(request.open->goals[k]);
-  }
+  if (open.size() != received.size()) return;
+  for (std::size_t k = 0; k < received.size(); ++k) received[k].choices = choices_of(open[k]);
 }
 
 Result<PlanRequest, RequestError> parse_request(std::string_view body, const Limits& limits, core::Work& work,

@@ -28,12 +28,6 @@
 
 namespace fleetplan::api {
 
-/// The robots of a request, goals that are open and those that are put off included.
-struct OpenFleet {
-  std::vector<core::Robot> robots;  // their goals have the poses that are chosen
-  core::OpenGoals goals;            // by robot
-};
-
 /// A valid body of POST /v1/plan.
 struct PlanRequest {
   core::Problem problem;  // problem in the map frame
@@ -44,11 +38,11 @@ struct PlanRequest {
   std::vector<ReceivedRobot> received;  // by robot
   std::string metadata;                 // see parse_metadata
   RequestedDependencies dependencies;
-  std::optional<OpenFleet> open = {};  // if goals are open; the problem is made of these robots
+  std::optional<core::OpenFleet> open = {};  // if goals are open; the problem is made of these robots
 };
 
-/// Tells the answer which poses are chosen.
-void tell_choices(PlanRequest& request);
+/// Tells the answer which poses are chosen for the open goals.
+void tell_choices(const core::OpenGoals& open, std::vector<ReceivedRobot>& received);
 
 /// Reads a request of POST /v1/plan, which may be a part of a body. Returns none only when it reported
 /// faults, or when `work` is met.

@@ -18,6 +18,12 @@
 
 namespace fleetplan::core {
 
+/// The robots of a problem in which goals are open, those that are put off included.
+struct OpenFleet {
+  std::vector<Robot> robots;  // their goals have the poses that are chosen
+  OpenGoals goals;            // by robot
+};
+
 /// Leaves out the poses at which the disk of the robot overlaps an obstacle or a blocked zone. A goal that
 /// would have none keeps them all, and is returned. Poses at which a goal would be put off, because of a zone
 /// that nobody enters, become the last ones to be chosen. Settled goals stay as they are, and all do if

@@ -112,7 +112,7 @@ TEST(SourceRules, AllowPublicHeadersOnlyEachOtherAndTheStandardLibrary) {
 }
 
 TEST(SourceRules, AllowApiToIncludeCoreButNotTheServer) {
-  EXPECT_THAT(violations("api/a.cpp", "#include \"core/planner.h\"\n#include <nlohmann/json.hpp>\n"),
+  EXPECT_THAT(violations("api/a.cpp", "#include \"core/plan/planner.h\"\n#include <nlohmann/json.hpp>\n"),
               IsEmpty());
   EXPECT_THAT(violations("api/a.cpp", "#include \"server/routes.h\"\n"),
               ElementsAre(HasSubstr("\"server/routes.h\"")));
@@ -134,14 +134,14 @@ TEST(SourceRules, AllowTheServerEverythingExceptTests) {
               ElementsAre(HasSubstr("\"tests/support/x.h\"")));
 }
 
-TEST(SourceRules, AllowTheFacadeOnlyOutsideCoreAndInItsSource) {
-  const std::string include = "#include \"core/planner.h\"\n";
-  EXPECT_THAT(violations("core/planner.cpp", include), IsEmpty());
+TEST(SourceRules, AllowTheDoorOnlyOutsideCoreAndInItsFolder) {
+  const std::string include = "#include \"core/plan/planner.h\"\n";
+  EXPECT_THAT(violations("core/plan/a.cpp", include), IsEmpty());
   EXPECT_THAT(violations("api/endpoints/a.cpp", include), IsEmpty());
   for (const std::string path :
        {"core/compile/instance.h", "core/sipp/a.cpp", "core/lns/a.cpp", "core/verify/a.cpp"}) {
     EXPECT_THAT(violations(path, "#pragma once\n" + include),
-                ElementsAre(path + " must not include \"core/planner.h\""));
+                ElementsAre(path + " must not include \"core/plan/planner.h\""));
   }
 }
 

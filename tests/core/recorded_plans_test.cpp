@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/planner.h"
+#include "core/plan/planner.h"
 #include "core/runtime/random.h"
 #include "core/runtime/stop_condition.h"
 

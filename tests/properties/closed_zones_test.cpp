@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/model/ways_out.h"
-#include "core/planner.h"
+#include "core/plan/planner.h"
 #include "tests/support/expect_safe.h"
 #include "tests/support/moments.h"
 #include "tests/support/random_zones.h"

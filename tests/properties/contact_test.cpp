@@ -17,7 +17,7 @@
 #include "core/geometry/position.h"
 #include "core/geometry/tolerance.h"
 #include "core/map/occupancy_grid.h"
-#include "core/planner.h"
+#include "core/plan/planner.h"
 #include "core/verify/execution.h"
 #include "core/verify/pairs/fleet_clearance.h"
 #include "core/verify/verify.h"

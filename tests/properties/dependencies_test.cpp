@@ -10,7 +10,7 @@
 #include <set>
 #include <utility>
 
-#include "core/planner.h"
+#include "core/plan/planner.h"
 #include "core/verify/verify.h"
 #include "tests/support/moving_fleet.h"
 #include "tests/support/own_pace.h"

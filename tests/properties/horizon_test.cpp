@@ -12,7 +12,7 @@
 
 #include "core/model/itinerary.h"
 #include "core/model/loads.h"
-#include "core/planner.h"
+#include "core/plan/planner.h"
 #include "core/verify/verify.h"
 #include "tests/support/expect_replanned.h"
 #include "tests/support/moments.h"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/execution/dependencies.h"
-#include "core/planner.h"
+#include "core/plan/planner.h"
 #include "tests/core/execution/simulation/study.h"
 #include "tests/support/expect_bounds.h"
 #include "tests/support/expect_safe.h"

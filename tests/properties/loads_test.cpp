@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/planner.h"
+#include "core/plan/planner.h"
 #include "tests/support/expect_replanned.h"
 #include "tests/support/moving_fleet.h"
 #include "tests/support/sanitized.h"

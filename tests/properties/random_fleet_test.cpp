@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <set>
 
-#include "core/planner.h"
+#include "core/plan/planner.h"
 #include "core/verify/verify.h"
 #include "tests/support/expect_bounds.h"
 #include "tests/support/plain_check.h"

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/map/occupancy_grid.h"
-#include "core/planner.h"
+#include "core/plan/planner.h"
 #include "core/replan/kept_plans.h"
 #include "tests/support/expect_replanned.h"
 #include "tests/support/moving_fleet.h"

@@ -12,7 +12,7 @@
 
 #include "core/map/lattice.h"
 #include "core/model/objective_share.h"
-#include "core/planner.h"
+#include "core/plan/planner.h"
 #include "tests/support/expect_bounds.h"
 #include "tests/support/expect_replanned.h"
 #include "tests/support/moving_fleet.h"

@@ -9,7 +9,7 @@
 #include <utility>
 #include <variant>
 
-#include "core/planner.h"
+#include "core/plan/planner.h"
 #include "core/runtime/executor.h"
 #include "tests/support/random_zones.h"
 

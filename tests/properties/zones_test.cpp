@@ -5,7 +5,7 @@
 #include <chrono>
 #include <vector>
 
-#include "core/planner.h"
+#include "core/plan/planner.h"
 #include "tests/support/expect_bounds.h"
 #include "tests/support/expect_safe.h"
 #include "tests/support/random_zones.h"

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "core/geometry/tolerance.h"
-#include "core/planner.h"
+#include "core/plan/planner.h"
 #include "core/replan/kept_plans.h"
 #include "core/verify/verify.h"
 #include "tests/support/expect_safe.h"

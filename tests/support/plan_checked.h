@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/planner.h"
+#include "core/plan/planner.h"
 #include "tests/support/expect_bounds.h"
 #include "tests/support/expect_safe.h"
 

@@ -7,6 +7,7 @@
 
 #include "api/endpoints/endpoints.h"
 #include "api/endpoints/pipeline.h"
+#include "core/plan/planner.h"
 #include "core/runtime/memory_account.h"
 #include "tests/api/support/requests.h"
 

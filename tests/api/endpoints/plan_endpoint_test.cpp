@@ -13,6 +13,7 @@
 
 #include "api/endpoints/endpoints.h"
 #include "api/json/errors.h"
+#include "core/plan/planner.h"
 #include "core/runtime/stop_condition.h"
 #include "tests/api/support/answers.h"
 #include "tests/api/support/requests.h"

@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <thread>
+#include <variant>
 #include <vector>
 
 #include "api/endpoints/endpoints.h"
 #include "api/endpoints/request_context.h"
+#include "core/plan/planner.h"
 #include "tests/api/support/requests.h"
 
 namespace fleetplan::api {
@@ -142,13 +145,52 @@ TEST(PlanEvents, NeverHaveAnIncumbentThatTheCheckerRejects) {
   EXPECT_TRUE(events.incumbents.empty());
 }
 
+TEST(PlanEvents, HaveIncumbentsWithThePosesTheyAreMadeFor) {
+  // A parked robot fills the door of the first dock, so the second one is tried.
+  const Json request = Json::parse(R"({
+    "map": {"rows": ["..........", "......####", "..........", "......####", ".........."]},
+    "robot_defaults": {"radius": 0.3, "linear_speed": 1, "angular_speed": 2},
+    "robots": [
+      {"id": "a", "start": {"x": 0.5, "y": 2.5},
+       "goal": {"any_of": [{"x": 8.5, "y": 2.5}, {"x": 8.5, "y": 0.5}]}},
+      {"id": "parked", "start": {"x": 6.5, "y": 2.5}}]})");
+  const Planner shows_every_plan = [](const core::Problem& problem, const core::PlanOptions& options,
+                                      const core::StopCondition& stop, core::Observer* observer) {
+    core::Plan plan = core::plan(problem, options, stop);
+    observer->show(plan);
+    return plan;
+  };
+  Events events;
+  const Reply reply = plan_with(shows_every_plan, request.dump(), context_with(events));
+  ASSERT_EQ(reply.status, 200) << reply.body;
+  EXPECT_EQ(json_of(reply)["plans"][0]["visits"][0]["choice"], 1);
+  ASSERT_EQ(events.incumbents.size(), 2U);
+  EXPECT_EQ(events.incumbents[0]["status"], "partial");
+  EXPECT_EQ(events.incumbents[1]["plans"], json_of(reply)["plans"]);
+}
+
+/// A plan that is shown to an observer.
+class Shown {
+ public:
+  core::CheckedPlan plan() const { return {task_, plan_, report_, times_, planning_}; }
+
+ private:
+  const core::PlanTask task_{std::get<core::Problem>(core::Problem::create(core::OccupancyGrid(1, 1, 1.0), {},
+                                                                           {}, core::StopCondition::never())),
+                             {}};
+  const core::Plan plan_;
+  const std::optional<core::VerifyReport> report_;
+  const core::PlanTimes times_{};
+  const core::StopCondition planning_ = core::StopCondition::never();
+};
+
 TEST(ProgressReporter, RequestsPlansAtMostOnceASecond) {
   Events events;
-  const auto answer = [](const core::Plan&) { return Reply{200, kJson, "{}"}; };
+  const auto answer = [](const core::CheckedPlan&) { return Reply{200, kJson, "{}"}; };
   ProgressReporter reporter(events, 1, ProgressReporter::Clock::time_point::max(), answer);
   ASSERT_TRUE(reporter.wants_plan());
   const auto begin = ProgressReporter::Clock::now();
-  reporter.show({});
+  reporter.show(Shown().plan());
   EXPECT_EQ(events.incumbents.size(), 1U);
   while (!reporter.wants_plan()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   EXPECT_GE(ProgressReporter::Clock::now() - begin, std::chrono::seconds(1));
@@ -156,7 +198,7 @@ TEST(ProgressReporter, RequestsPlansAtMostOnceASecond) {
 
 TEST(ProgressReporter, RequestsNoPlanShortlyBeforeTheDeadline) {
   Events events;
-  const auto answer = [](const core::Plan&) { return Reply{}; };
+  const auto answer = [](const core::CheckedPlan&) { return Reply{}; };
   const auto soon = ProgressReporter::Clock::now() + ProgressReporter::kQuietEnd;
   EXPECT_FALSE(ProgressReporter(events, 1, soon, answer).wants_plan());
   EXPECT_TRUE(ProgressReporter(events, 1, soon + std::chrono::minutes(1), answer).wants_plan());

@@ -22,7 +22,7 @@
 #include "api/endpoints/endpoints.h"
 #include "api/request/parse_request.h"
 #include "core/geometry/tolerance.h"
-#include "core/planner.h"
+#include "core/plan/planner.h"
 #include "core/verify/verify.h"
 #include "tests/api/support/expect_actions.h"
 #include "tests/api/support/life_requests.h"

@@ -7,7 +7,7 @@
 #include <regex>
 #include <string>
 
-#include "core/planner.h"
+#include "core/plan/planner.h"
 #include "core/runtime/random.h"
 #include "tests/api/support/requests.h"
 #include "tests/support/base64.h"

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "api/endpoints/endpoints.h"
-#include "core/planner.h"
+#include "core/plan/planner.h"
 #include "tests/api/support/requests.h"
 #include "tests/support/moments.h"
 #include "tests/support/step_limit.h"

@@ -11,7 +11,7 @@
 #include "core/geometry/disk_motion.h"
 #include "core/map/line_of_sight.h"
 #include "core/model/problem.h"
-#include "core/planner.h"
+#include "core/plan/planner.h"
 #include "core/reservation/reservation_table.h"
 #include "core/runtime/random.h"
 #include "tests/bench/workload.h"

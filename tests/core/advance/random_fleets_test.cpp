@@ -14,7 +14,7 @@
 
 #include "core/advance/advance.h"
 #include "core/geometry/tolerance.h"
-#include "core/planner.h"
+#include "core/plan/planner.h"
 #include "core/verify/check_rules.h"
 #include "core/verify/verify.h"
 #include "tests/support/moments.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/planner.h"
+#include "core/plan/planner.h"
 #include "tests/support/expect_safe.h"
 #include "tests/support/problem_builder.h"
 #include "tests/support/random_problem.h"

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/planner.h"
+#include "core/plan/planner.h"
 #include "tests/core/support/planning.h"
 #include "tests/support/expect_bounds.h"
 #include "tests/support/random_problem.h"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/planner.h"
+#include "core/plan/planner.h"
 #include "tests/support/problem_builder.h"
 #include "tests/support/random_problem.h"
 

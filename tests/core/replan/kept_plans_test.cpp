@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/model/itinerary.h"
-#include "core/planner.h"
+#include "core/plan/planner.h"
 #include "tests/core/replan/fleets.h"
 #include "tests/core/support/planning.h"
 #include "tests/support/ascii_map.h"

@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "core/planner.h"
+#include "core/plan/planner.h"
 #include "tests/core/replan/fleets.h"
 #include "tests/core/support/planning.h"
 #include "tests/support/ascii_map.h"

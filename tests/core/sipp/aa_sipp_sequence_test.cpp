@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/model/itinerary.h"
-#include "core/planner.h"
+#include "core/plan/planner.h"
 #include "core/prioritized/collect_plan.h"
 #include "core/sipp/aa_sipp.h"
 #include "tests/core/support/planning.h"

@@ -13,7 +13,7 @@
 
 #include "core/commitments/unavoidable_collisions.h"
 #include "core/model/plan.h"
-#include "core/planner.h"
+#include "core/plan/planner.h"
 #include "core/verify/verify.h"
 #include "tests/core/support/planning.h"
 #include "tests/support/ascii_map.h"

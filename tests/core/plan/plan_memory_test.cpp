@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/planner.h"
+#include "core/plan/planner.h"
 #include "core/runtime/memory_account.h"
 #include "tests/support/expect_safe.h"
 #include "tests/support/problem_builder.h"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/model/plan.h"
-#include "core/planner.h"
+#include "core/plan/planner.h"
 #include "tests/support/ascii_map.h"
 #include "tests/support/problem_builder.h"
 

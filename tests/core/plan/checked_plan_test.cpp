@@ -1,8 +1,8 @@
-#include "core/checked_plan.h"
+#include "core/plan/checked_plan.h"
 
 #include <gtest/gtest.h>
 
-#include "core/planner.h"
+#include "core/plan/planner.h"
 #include "core/runtime/stop_condition.h"
 #include "tests/support/problem_builder.h"
 #include "tests/support/step_limit.h"

@@ -1,4 +1,4 @@
-#include "core/planner.h"
+#include "core/plan/planner.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,6 +1,7 @@
-#include "core/checked_plan.h"
+#include "core/plan/checked_plan.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 #include <vector>
 
@@ -48,6 +49,27 @@ Plan without_moves(const Plan& plan, const Problem& problem, const StopCondition
   return left;
 }
 
+/// Returns the condition for the check of the plan that was made. One that was cancelled may still be checked
+/// quickly.
+StopCondition stop_of_check(const StopCondition& planning, const CheckPatience& patience) {
+  constexpr std::chrono::milliseconds kLeastCpu{25};
+  const auto now = StopCondition::Clock::now();
+  if (planning.cancelled()) return planning.even_if_cancelled(now + patience.if_cancelled);
+  if (patience.despite_cancel) {
+    return planning.even_if_cancelled(std::max(planning.deadline(), now + patience.after_planning));
+  }
+  if (planning.deadline() == StopCondition::Clock::time_point::max()) return planning;
+  return planning.until(planning.deadline() + patience.after_planning).with_cpu_time(kLeastCpu);
+}
+
+/// Returns the condition for the check of a plan in which nobody moves.
+StopCondition last_stop(const StopCondition& planning, const CheckPatience& patience) {
+  const auto end = StopCondition::Clock::now() + patience.for_nobody;
+  if (planning.cancelled()) return planning.even_if_cancelled(end);
+  const auto later = std::max(end, stop_of_check(planning, patience).deadline());
+  return patience.despite_cancel ? planning.even_if_cancelled(later) : planning.until(later);
+}
+
 }  // namespace
 
 CheckOfPlan check(const Plan& plan, const Problem& problem, const PlanOptions& options,
@@ -62,6 +84,12 @@ CheckOfPlan check(const Plan& plan, const Problem& problem, const PlanOptions& o
   const Plan& left = check.checked(plan);
   if (left.unavoidable_known) check.report = check_plan(problem, options, left, end);
   return check;
+}
+
+CheckOfPlan check(const Plan& plan, const Problem& problem, const PlanOptions& options,
+                  const StopCondition& planning, const CheckPatience& patience) {
+  return check(plan, problem, options, stop_of_check(planning, patience).despite_memory(),
+               [&] { return last_stop(planning, patience).despite_memory(); });
 }
 
 }  // namespace fleetplan::core
