@@ -83,6 +83,23 @@ core::OccupancyGrid grid_of(const Map& map) {
   return grid;
 }
 
+namespace {
+
+/// Gives a goal the pose at which it is served, or the first of those at which it may be.
+void set_pose(core::Goal& made, const Goal& goal, const Frame& frame) {
+  std::optional<double> theta = goal.theta;
+  made.position = frame.to_core(goal.x, goal.y);
+  if (!goal.any_of.empty()) {
+    const std::size_t choice = goal.choice.value_or(0);
+    const Alternative& pose = goal.any_of[choice < goal.any_of.size() ? choice : 0];
+    theta = pose.theta;
+    made.position = frame.to_core(pose.x, pose.y);
+  }
+  if (theta) made.theta = core::normalize_angle(*theta);
+}
+
+}  // namespace
+
 core::Robot robot_of(const Robot& robot, const Frame& frame) {
   core::Robot made;
   made.id = robot.id;
@@ -92,14 +109,14 @@ core::Robot robot_of(const Robot& robot, const Frame& frame) {
   made.start = frame.to_core(robot.start);
   made.may_reverse = robot.may_reverse;
   made.vicinity = robot.vicinity;
+  made.goal_age = robot.goal_age;
   made.weight = robot.weight;
   made.linear_acceleration = robot.linear_acceleration.value_or(core::Robot::kNoLimit);
   made.linear_deceleration = robot.linear_deceleration.value_or(made.linear_acceleration);
   made.angular_acceleration = robot.angular_acceleration.value_or(core::Robot::kNoLimit);
   for (const Goal& goal : robot.goals) {
     core::Goal& each = made.via.emplace_back();
-    each.position = frame.to_core(goal.x, goal.y);
-    if (goal.theta) each.theta = core::normalize_angle(*goal.theta);
+    set_pose(each, goal, frame);
     each.service = goal.service > 0.0 ? std::max(goal.service, core::kShortestWait) : 0.0;
     each.not_before = goal.not_before;
     each.radius_after = goal.radius_after;
@@ -112,6 +129,23 @@ core::Robot robot_of(const Robot& robot, const Frame& frame) {
   made.goal = made.via.back();
   made.via.pop_back();
   return made;
+}
+
+std::vector<core::OpenGoal> open_goals_of(const Robot& robot, const Frame& frame) {
+  std::vector<core::OpenGoal> open;
+  for (std::size_t k = 0; k < robot.goals.size(); ++k) {
+    const Goal& goal = robot.goals[k];
+    if (goal.any_of.empty()) continue;
+    core::OpenGoal& made = open.emplace_back();
+    made.goal = k;
+    made.is_told = goal.choice && *goal.choice < goal.any_of.size();
+    if (made.is_told) made.chosen = *goal.choice;
+    for (const Alternative& pose : goal.any_of) {
+      const auto theta = pose.theta ? std::optional(core::normalize_angle(*pose.theta)) : std::nullopt;
+      made.poses.push_back({frame.to_core(pose.x, pose.y), theta, pose.bias, made.poses.size()});
+    }
+  }
+  return open;
 }
 
 core::MovingObstacle obstacle_of(const MovingObstacle& obstacle, const Frame& frame) {
@@ -185,8 +219,15 @@ std::vector<core::UnavoidableCollision> unavoidable_of(const std::vector<Unavoid
 
 namespace {
 
+std::optional<std::size_t> choice_of(const std::vector<core::OpenGoal>& open, std::size_t goal) {
+  const auto found =
+      std::find_if(open.begin(), open.end(), [&](const core::OpenGoal& one) { return one.goal == goal; });
+  return found != open.end() ? std::optional(found->choice().number) : std::nullopt;
+}
+
 /// The places where idle robots end are no goals of the user's.
-RobotPlan plan_of(const core::RobotPlan& plan, std::size_t goals, const Frame& frame) {
+RobotPlan plan_of(const core::RobotPlan& plan, std::size_t goals, const std::vector<core::OpenGoal>& open,
+                  const Frame& frame) {
   RobotPlan made;
   made.robot = plan.robot;
   made.cost = plan.cost;
@@ -203,18 +244,21 @@ RobotPlan plan_of(const core::RobotPlan& plan, std::size_t goals, const Frame& f
   for (const core::Visit& visit : plan.visits) {
     if (visit.goal >= goals) continue;
     const bool leaves = visit.t_leave < core::kForever;
-    made.visits.push_back({visit.goal, visit.t_arrive, leaves ? std::optional(visit.t_leave) : std::nullopt});
+    made.visits.push_back({visit.goal, visit.t_arrive, leaves ? std::optional(visit.t_leave) : std::nullopt,
+                           choice_of(open, visit.goal)});
   }
   return made;
 }
 
 }  // namespace
 
-Plan plan_of(const core::Plan& plan, const Problem& problem) {
+Plan plan_of(const core::Plan& plan, const Problem& problem, const core::OpenGoals& open) {
+  static const std::vector<core::OpenGoal> none;
   const Frame frame(problem.map);
   Plan made;
   for (const core::RobotPlan& robot : plan.plans) {
-    made.plans.push_back(plan_of(robot, problem.robots[robot.robot].goals.size(), frame));
+    made.plans.push_back(plan_of(robot, problem.robots[robot.robot].goals.size(),
+                                 open.empty() ? none : open[robot.robot], frame));
   }
   for (const core::Unplanned& robot : plan.unplanned) {
     made.unplanned.push_back({robot.robot,

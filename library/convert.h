@@ -15,11 +15,14 @@
 #include <vector>
 
 #include "core/map/occupancy_grid.h"
+#include "core/model/open_goal.h"
 #include "core/model/plan.h"
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"
 #include "core/model/robot.h"
 #include "core/model/surroundings.h"
+#include "core/plan/make_plan.h"
+#include "core/travel/goal_choice.h"
 #include "core/verify/verify.h"
 
 namespace fleetplan::library {
@@ -41,8 +44,11 @@ class Frame {
 };
 
 core::OccupancyGrid grid_of(const Map& map);
-/// Converts a robot without its committed and previous actions.
+/// Converts a robot without its committed and previous actions. A goal with several poses has the one that is
+/// told, or the first.
 core::Robot robot_of(const Robot& robot, const Frame& frame);
+/// Returns those of its goals that have several poses.
+std::vector<core::OpenGoal> open_goals_of(const Robot& robot, const Frame& frame);
 core::MovingObstacle obstacle_of(const MovingObstacle& obstacle, const Frame& frame);
 core::Zone zone_of(const Zone& zone, const Frame& frame);
 /// Converts options. `in_motion`: whether any robot has committed actions or a previous plan.
@@ -51,13 +57,15 @@ core::PlanOptions options_of(const Options& options, bool in_motion);
 core::RobotPlan plan_of(const RobotPlan& plan, const Frame& frame);
 std::vector<core::UnavoidableCollision> unavoidable_of(const std::vector<UnavoidableCollision>& collisions);
 
-/// Converts a plan, except whether it is verified and how long it took.
-Plan plan_of(const core::Plan& plan, const Problem& problem);
+/// Converts a plan, except whether it is verified and how long it took. `open` has the poses that are chosen,
+/// by robot; empty if no goal has several.
+Plan plan_of(const core::Plan& plan, const Problem& problem, const core::OpenGoals& open);
 Verification verification_of(core::VerifyReport report);
 
 /// What is read from a problem; faults of its numbers and lists are added to `faults`.
 struct ReadFleet {
   std::vector<core::Robot> robots;
+  core::OpenGoals open;  // by robot
   std::vector<core::MovingObstacle> obstacles;
   std::vector<core::Zone> zones;
   std::vector<Fault> faults;  // only the first ones of many
@@ -68,9 +76,9 @@ ReadFleet read_fleet(const Problem& problem);
 /// Whether any robot has committed actions or a previous plan.
 bool in_motion(const Problem& problem);
 
-/// A problem for the planner, or its faults. Neither if a stop was requested first.
+/// What the planner is to plan, or its faults. Neither if a stop was requested first.
 struct MadeProblem {
-  std::optional<core::Problem> problem;
+  std::optional<core::PlanTask> task;
   std::vector<Fault> faults;
 };
 

@@ -16,7 +16,9 @@
 #include "core/map/lattice.h"
 #include "core/map/static_map.h"
 #include "core/model/loads.h"
+#include "core/model/open_goal.h"
 #include "core/runtime/stop_condition.h"
+#include "core/travel/goal_choice.h"
 #include "library/convert.h"
 
 namespace fleetplan::library {
@@ -163,14 +165,14 @@ const char* unfit(const core::Action& action, const core::Robot& robot, const co
 /// so that the actions are exactly contiguous; larger ones, and actions that the robot cannot execute, are
 /// faults. The first `measured` actions may be measured motion, which has no profiles.
 std::vector<core::Action> read_actions(const std::vector<Action>& actions, const core::Robot& robot,
-                                       std::size_t measured, const Frame& frame, const std::string& place,
-                                       FaultList& faults) {
+                                       const std::vector<core::OpenGoal>& open, std::size_t measured,
+                                       const Frame& frame, const std::string& place, FaultList& faults) {
   std::vector<core::Action> read;
   read.reserve(actions.size());
   core::Pose before = robot.start;
   double now = 0.0;
   std::optional<double> speed;
-  core::LoadOnTheWay on_the_way(robot);
+  core::OpenLoadOnTheWay on_the_way(robot, open);
   for (std::size_t k = 0; k < actions.size(); ++k) {
     const auto refuse = [&](const std::string& why) {
       faults.add(item(place, k), "The action " + why + '.');
@@ -215,9 +217,29 @@ void check_position(double x, double y, const std::string& place, FaultList& fau
   faults.check(y, kCoordinate, place + ".y");
 }
 
+void check_any_of(const Goal& goal, const std::string& place, FaultList& faults) {
+  const std::string list = place + ".any_of";
+  const std::size_t count = goal.any_of.size();
+  if (goal.choice && *goal.choice >= count) {
+    faults.add(place + ".choice", count == 0 ? "The goal has no any_of."
+                                             : "any_of has no pose of this number; the first one is 0.");
+  }
+  if (count > 0 && (count < kFewestPoses || count > kMostPoses)) {
+    faults.add(list, "There are " + std::to_string(count) + " poses; there must be " +
+                         std::to_string(kFewestPoses) + " to " + std::to_string(kMostPoses) + '.');
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    const Alternative& pose = goal.any_of[k];
+    check_position(pose.x, pose.y, item(list, k), faults);
+    if (pose.theta) faults.check(*pose.theta, kAngle, item(list, k) + ".theta");
+    faults.check(pose.bias, kDuration, item(list, k) + ".bias");
+  }
+}
+
 void check_goal(const Goal& goal, const std::string& place, FaultList& faults) {
   check_position(goal.x, goal.y, place, faults);
   if (goal.theta) faults.check(*goal.theta, kAngle, place + ".theta");
+  check_any_of(goal, place, faults);
   faults.check(goal.service, kDuration, place + ".service");
   faults.check(goal.not_before, kDuration, place + ".not_before");
   const auto check = [&](const std::optional<double>& number, const Range& range, const char* name) {
@@ -239,6 +261,7 @@ void check_robot(const Robot& robot, const std::string& place, FaultList& faults
   faults.check(robot.linear_speed, kLinearSpeed, place + ".linear_speed");
   faults.check(robot.angular_speed, kAngularSpeed, place + ".angular_speed");
   faults.check(robot.vicinity, kLengthOrZero, place + ".vicinity");
+  faults.check(robot.goal_age, kDuration, place + ".goal_age");
   faults.check(robot.weight, kWeight, place + ".weight");
   const auto check_limit = [&](const std::optional<double>& limit, const char* name) {
     if (limit) faults.check(*limit, kAcceleration, place + name);
@@ -362,6 +385,10 @@ std::vector<Fault> faults_of(const Options& options, const Map& map) {
   return faults.take();
 }
 
+bool has_open_goals(const core::OpenGoals& open) {
+  return std::any_of(open.begin(), open.end(), [](const auto& goals) { return !goals.empty(); });
+}
+
 core::ProblemConditions conditions_of(ReadFleet& fleet, const core::PlanOptions& options) {
   core::ProblemConditions made = core::conditions_of(options);
   made.obstacles = std::move(fleet.obstacles);
@@ -385,11 +412,11 @@ ReadFleet read_fleet(const Problem& problem) {
     const std::string place = item("robots", k);
     check_robot(robot, place, faults);
     core::Robot& made = read.robots.emplace_back(robot_of(robot, frame));
-    made.committed =
-        read_actions(robot.committed, made, robot.committed.size(), frame, place + ".committed", faults);
+    const std::vector<core::OpenGoal>& open = read.open.emplace_back(open_goals_of(robot, frame));
+    const std::size_t measured = robot.committed.size();
+    made.committed = read_actions(robot.committed, made, open, measured, frame, place + ".committed", faults);
     if (robot.previous) {
-      made.previous =
-          read_actions(*robot.previous, made, robot.committed.size(), frame, place + ".previous", faults);
+      made.previous = read_actions(*robot.previous, made, open, measured, frame, place + ".previous", faults);
     }
     if (robot.idle == Robot::Idle::yield) made.let_yield();
     if (robot.idle == Robot::Idle::come_back && !made.goal) {
@@ -408,6 +435,19 @@ ReadFleet read_fleet(const Problem& problem) {
   return read;
 }
 
+namespace {
+
+/// Returns the fault of a goal for which there is no pose.
+Fault described(const core::WithoutPose& goal, const core::OpenGoals& open) {
+  const auto& [robot, index] = goal.place;
+  return {item(item("robots", robot) + ".goals", open[robot][index].goal) + ".any_of",
+          goal.any_fits ? "The robot would stay at one of these poses, but others stay at all that fit."
+                        : "None of these poses fits: at each of them, the disk of the robot overlaps an "
+                          "obstacle or the edge of the map."};
+}
+
+}  // namespace
+
 MadeProblem make_problem(const Problem& problem, const Options& options, const std::stop_token& stop) {
   ReadFleet fleet = read_fleet(problem);
   MadeProblem made;
@@ -417,10 +457,18 @@ MadeProblem make_problem(const Problem& problem, const Options& options, const s
   const core::StopCondition cancelled(core::StopCondition::Clock::time_point::max(), stop);
   const auto map = core::static_map(grid_of(problem.map), cancelled);
   if (!map) return made;
-  core::ProblemConditions conditions = conditions_of(fleet, options_of(options, in_motion(problem)));
+  const core::PlanOptions core_options = options_of(options, in_motion(problem));
+  std::optional<core::OpenFleet> open;
+  if (has_open_goals(fleet.open)) {
+    const auto without = core::choose_without_search(map, fleet.zones, fleet.robots, fleet.open, cancelled);
+    for (const core::WithoutPose& goal : without) made.faults.push_back(described(goal, fleet.open));
+    if (!without.empty() || cancelled.met()) return made;
+    open = core::OpenFleet{fleet.robots, std::move(fleet.open)};
+  }
+  core::ProblemConditions conditions = conditions_of(fleet, core_options);
   auto created = core::Problem::create(map, std::move(fleet.robots), std::move(conditions), cancelled);
   if (auto* valid = std::get_if<core::Problem>(&created)) {
-    made.problem = std::move(*valid);
+    made.task = core::PlanTask{std::move(*valid), core_options, std::move(open)};
     return made;
   }
   const auto& faults = std::get<core::ProblemFaults>(created);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/model/objective_share.h"
+#include "core/model/open_goal.h"
 #include "core/plan/make_plan.h"
 #include "core/runtime/executor.h"
 #include "core/runtime/stop_condition.h"
@@ -73,18 +74,56 @@ std::vector<core::RobotPlan> core_plans(std::span<const RobotPlan> plans, const 
   return made;
 }
 
+/// Settles what is open by the visits of the plan or, if they say nothing of it, by its actions.
+void settle_choices(const RobotPlan& plan, std::span<const core::Action> actions, core::Robot& robot,
+                    std::vector<core::OpenGoal>& open, const core::StopCondition& stop) {
+  bool is_told = false;
+  for (const Visit& visit : plan.visits) {
+    if (!visit.choice) continue;
+    const auto goal = std::find_if(open.begin(), open.end(),
+                                   [&](const core::OpenGoal& one) { return one.goal == visit.goal; });
+    if (goal == open.end() || *visit.choice >= goal->poses.size()) {
+      throw std::invalid_argument("a visit names a pose that its goal does not have");
+    }
+    core::choose(robot, *goal, *visit.choice);
+    goal->is_settled = is_told = true;
+  }
+  if (is_told) return core::choose_unserved(robot, open, actions, stop);
+  // A choice of the problem is that of its own actions.
+  for (core::OpenGoal& goal : open) goal.is_told = false;
+  core::settle_by_actions(robot, open, actions, true, stop);
+}
+
+/// Gives goals that have several poses those at which the plans serve them, or committed actions of robots
+/// without a plan.
+void settle_choices(std::span<const RobotPlan> plans, const std::vector<core::RobotPlan>& made,
+                    library::ReadFleet& fleet, const core::StopCondition& stop) {
+  std::vector<bool> is_planned(fleet.robots.size(), false);
+  for (std::size_t k = 0; k < plans.size(); ++k) {
+    const std::size_t robot = plans[k].robot;
+    if (robot >= fleet.robots.size()) continue;  // a fault, see core::verify
+    is_planned[robot] = true;
+    settle_choices(plans[k], made[k].actions, fleet.robots[robot], fleet.open[robot], stop);
+  }
+  for (std::size_t robot = 0; robot < fleet.robots.size(); ++robot) {
+    if (is_planned[robot]) continue;
+    core::settle_by_actions(fleet.robots[robot], fleet.open[robot], fleet.robots[robot].committed, false,
+                            stop);
+  }
+}
+
 }  // namespace
 
 Plan plan(const Problem& problem, const Options& options, const Control& control) {
   const Clock::time_point begin = Clock::now();
   library::MadeProblem made = library::make_problem(problem, options, control.stop);
   if (!made.faults.empty()) throw InvalidProblem(std::move(made.faults));
-  if (!made.problem) return nothing_planned(problem.robots.size());
+  if (!made.task) return nothing_planned(problem.robots.size());
 
-  core::PlanTask task{std::move(*made.problem), library::options_of(options, library::in_motion(problem))};
   const core::StopCondition stop(end_of(options.time_budget, begin), control.stop);
-  const core::MadePlan found = planned(std::move(task), stop, control);
-  Plan plan = library::plan_of(found.plan, problem);
+  const core::MadePlan found = planned(std::move(*made.task), stop, control);
+  const auto& open = found.task.open;
+  Plan plan = library::plan_of(found.plan, problem, open ? open->goals : core::OpenGoals());
   plan.objective_value =
       core::objective_value(found.plan, found.task.problem.robots(), found.task.options.objective);
   plan.search.seconds = std::chrono::duration<double>(found.times.planned - found.times.begun).count();
@@ -116,9 +155,10 @@ Verification verify(const Problem& problem, std::span<const RobotPlan> plans, co
   core_rules.horizon = rules.horizon;
   core_rules.exempt = library::unavoidable_of(rules.unavoidable);
   const core::OccupancyGrid grid = library::grid_of(problem.map);
-  auto report = core::verify({grid, fleet.robots, fleet.obstacles, &fleet.zones},
-                             core_plans(plans, library::Frame(problem.map)), core_rules,
-                             core::StopCondition(end_of(rules.time_budget, Clock::now()), rules.stop));
+  const core::StopCondition stop(end_of(rules.time_budget, Clock::now()), rules.stop);
+  const std::vector<core::RobotPlan> made = core_plans(plans, library::Frame(problem.map));
+  settle_choices(plans, made, fleet, stop);
+  auto report = core::verify({grid, fleet.robots, fleet.obstacles, &fleet.zones}, made, core_rules, stop);
   return report ? library::verification_of(std::move(*report)) : Verification();
 }
 

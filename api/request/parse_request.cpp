@@ -114,34 +114,21 @@ class ProblemMaker {
 
   /// Chooses the poses of open goals, as far as that takes no search. Returns whether all of them have one.
   bool choose_poses_without_search() {
-    const core::StopCondition stop = work_.reading();
-    for (std::size_t k = 0; k < robots_.size(); ++k) {
-      if (robots_[k].invalid) open_[k].clear();
-      const auto& previous = robots_[k].previous;
-      core::settle_by_actions(robots_[k], open_[k], robots_[k].committed, false, stop);
-      if (previous) core::settle_by_actions(robots_[k], open_[k], *previous, false, stop);
-    }
-    bool all = true;
-    for (const auto& [robot, open] : core::leave_out_blocked_poses(map_, zones(), robots_, open_, stop)) {
-      all = false;
-      report_open(
-          robot, open, fault::kGoalInObstacle,
-          "None of these poses fits: at each of them, the disk of the robot overlaps a blocked cell, a "
-          "blocked zone or the edge of the map. Move one of them, or make the robot smaller.");
-    }
-    if (!all || work_.met()) return false;
-    for (const auto& [robot, open] : core::choose_by_distance(robots_, open_, stop)) {
-      all = false;
-      report_open(
-          robot, open, fault::kGoalsOverlap,
-          "The robot would stay at one of these poses, but other robots stay at all of them that fit: "
-          "give more poses, or let robots go on with \"idle\": \"yield\".");
-    }
-    return all && !work_.met();
+    const auto without = core::choose_without_search(map_, zones(), robots_, open_, work_.reading());
+    for (const core::WithoutPose& goal : without) report_open(goal);
+    return without.empty() && !work_.met();
   }
 
-  void report_open(std::size_t robot, std::size_t open, const char* code, const std::string& detail) {
+  void report_open(const core::WithoutPose& goal) {
+    const auto& [robot, open] = goal.place;
     const JsonReader place = fleet_.robots[indices_[robot]].goals[open_[robot][open].goal].find("any_of");
+    const char* code = goal.any_fits ? fault::kGoalsOverlap : fault::kGoalInObstacle;
+    const std::string detail =
+        goal.any_fits
+            ? "The robot would stay at one of these poses, but other robots stay at all of them that fit: "
+              "give more poses, or let robots go on with \"idle\": \"yield\"."
+            : "None of these poses fits: at each of them, the disk of the robot overlaps a blocked cell, a "
+              "blocked zone or the edge of the map. Move one of them, or make the robot smaller.";
     if (!reports_) return place.fault(code, detail);
     make_invalid(robot, place.described_fault(code, detail));
   }

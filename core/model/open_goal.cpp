@@ -79,4 +79,36 @@ void choose_unserved(Robot& robot, std::vector<OpenGoal>& open, std::span<const 
   choose(robot, *goal, goal->is_settled ? *pose : before);
 }
 
+OpenLoadOnTheWay::OpenLoadOnTheWay(const Robot& robot, const std::vector<OpenGoal>& open)
+    : robot_(robot), open_(open), on_the_way_(settled_at_start()) {}
+
+/// A goal that is not served at the start is settled again.
+const Robot& OpenLoadOnTheWay::settled_at_start() {
+  // Bounded: the poses of open goals, each once.
+  for (std::size_t k = 0; k < open_.size(); ++k) settle(open_[k].goal, robot_.start);
+  return robot_;
+}
+
+void OpenLoadOnTheWay::execute(const Action& action) {
+  // Bounded: the goals in one pose, each once.
+  for (bool goes_on = true; goes_on;) {
+    const std::size_t before = on_the_way_.served();
+    settle(before, action.to);
+    on_the_way_.execute(action);
+    goes_on = on_the_way_.served() != before;
+  }
+}
+
+/// Chooses the pose of the goal that the robot is in, if the goal is open.
+void OpenLoadOnTheWay::settle(std::size_t goal, const Pose& pose) {
+  const auto open = std::lower_bound(open_.begin(), open_.end(), goal,
+                                     [](const OpenGoal& one, std::size_t k) { return one.goal < k; });
+  if (open == open_.end() || open->goal != goal || open->is_told) return;
+  // Bounded: a hundred poses.
+  for (std::size_t k = 0; k < open->poses.size(); ++k) {
+    if (!is_in_pose(pose, {open->poses[k].position, open->poses[k].theta})) continue;
+    return choose(robot_, *open, k);
+  }
+}
+
 }  // namespace fleetplan::core

@@ -9,6 +9,7 @@
 
 #include "core/geometry/position.h"
 #include "core/model/action.h"
+#include "core/model/loads.h"
 #include "core/model/robot.h"
 #include "core/runtime/stop_condition.h"
 
@@ -52,5 +53,25 @@ void settle_by_actions(Robot& robot, std::vector<OpenGoal>& open, std::span<cons
 /// if `stop` is met.
 void choose_unserved(Robot& robot, std::vector<OpenGoal>& open, std::span<const Action> actions,
                      const StopCondition& stop);
+
+/// See LoadOnTheWay. A goal that is open is served in the pose in which the robot rests first, if it is not
+/// told.
+class OpenLoadOnTheWay {
+ public:
+  OpenLoadOnTheWay(const Robot& robot, const std::vector<OpenGoal>& open);
+  OpenLoadOnTheWay(const OpenLoadOnTheWay&) = delete;
+  OpenLoadOnTheWay& operator=(const OpenLoadOnTheWay&) = delete;
+
+  const Load& load() const { return on_the_way_.load(); }
+  void execute(const Action& action);
+
+ private:
+  const Robot& settled_at_start();
+  void settle(std::size_t goal, const Pose& pose);
+
+  Robot robot_;
+  std::vector<OpenGoal> open_;
+  LoadOnTheWay on_the_way_;
+};
 
 }  // namespace fleetplan::core

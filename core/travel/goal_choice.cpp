@@ -279,6 +279,26 @@ std::vector<OpenPlace> choose_by_distance(std::vector<Robot>& robots, OpenGoals&
   return choose_poses(robots, open, times_of, stop).value_or(std::vector<OpenPlace>());
 }
 
+std::vector<WithoutPose> choose_without_search(const std::shared_ptr<const StaticMap>& map,
+                                               const std::vector<Zone>& zones, std::vector<Robot>& robots,
+                                               OpenGoals& open, const StopCondition& stop) {
+  for (std::size_t k = 0; k < robots.size(); ++k) {
+    if (stop.met()) return {};
+    if (robots[k].invalid) open[k].clear();
+    if (open[k].empty()) continue;
+    const auto& previous = robots[k].previous;
+    settle_by_actions(robots[k], open[k], robots[k].committed, false, stop);
+    if (previous) settle_by_actions(robots[k], open[k], *previous, false, stop);
+  }
+  std::vector<WithoutPose> without;
+  const auto add = [&](const std::vector<OpenPlace>& places, bool any_fits) {
+    for (const OpenPlace& place : places) without.push_back({place, any_fits});
+  };
+  add(leave_out_blocked_poses(map, zones, robots, open, stop), false);
+  if (without.empty() && !stop.met()) add(choose_by_distance(robots, open, stop), true);
+  return without;
+}
+
 std::optional<Problem> choose_by_arrival(const Problem& problem, const PlanOptions& options,
                                          std::vector<Robot>& robots, OpenGoals& open, bool& finished,
                                          const StopCondition& stop, Executor& executor) {

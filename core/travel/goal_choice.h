@@ -38,6 +38,20 @@ std::vector<OpenPlace> leave_out_blocked_poses(const std::shared_ptr<const Stati
 std::vector<OpenPlace> choose_by_distance(std::vector<Robot>& robots, OpenGoals& open,
                                           const StopCondition& stop);
 
+/// An open goal for which there is no pose.
+struct WithoutPose {
+  OpenPlace place;
+  bool any_fits = false;  // then robots that stay take all that fit
+};
+
+/// Chooses poses for the goals of robots as far as that takes no search: those at which committed and
+/// previous actions serve them, which settles them, and others by leave_out_blocked_poses() and
+/// choose_by_distance(). Goals of robots that are invalid are no longer open. Returns those without a pose;
+/// not all of them if `stop` is met first.
+std::vector<WithoutPose> choose_without_search(const std::shared_ptr<const StaticMap>& map,
+                                               const std::vector<Zone>& zones, std::vector<Robot>& robots,
+                                               OpenGoals& open, const StopCondition& stop);
+
 /// Chooses poses again by when the robots would arrive, each alone on the map (see arrivals()): for last
 /// goals those of the least sum of weighted arrivals and biases; for others one robot after the other, which
 /// waits for those before it. `robots` and `open` have the choice of choose_by_distance(), and `problem` is

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 namespace fleetplan {
 
 // The ranges of numbers, within which real fleets stay. Within them the planner and its check keep positions
@@ -28,6 +30,9 @@ inline constexpr double kMostAcceleration = 1e6;
 /// The least and greatest weights of robots.
 inline constexpr double kLeastWeight = 1e-3;
 inline constexpr double kMostWeight = 1e3;
+/// The numbers of poses of a goal that may be served at several.
+inline constexpr std::size_t kFewestPoses = 2;
+inline constexpr std::size_t kMostPoses = 100;
 /// The shortest horizon, seconds.
 inline constexpr double kShortestHorizon = 1e-3;
 /// The least angle, radians, by which a one-way zone lets robots move off its heading.

@@ -12,9 +12,10 @@ namespace fleetplan {
 
 /// A visit of a robot to one of its goals.
 struct Visit {
-  std::size_t goal = 0;                // number of the goal in Robot::goals
-  double t_arrive = 0.0;               // seconds; begin of the rest in the goal pose
-  std::optional<double> t_leave = {};  // seconds, the end of the service; none at the last goal
+  std::size_t goal = 0;                    // number of the goal in Robot::goals
+  double t_arrive = 0.0;                   // seconds; begin of the rest in the goal pose
+  std::optional<double> t_leave = {};      // seconds, the end of the service; none at the last goal
+  std::optional<std::size_t> choice = {};  // number of the pose in Goal::any_of; none: the goal has one pose
 };
 
 /// When a robot would come to a goal that its plan does not reach.

@@ -3,11 +3,20 @@
 #include <fleetplan/action.h>
 #include <fleetplan/pose.h>
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace fleetplan {
+
+/// One of several poses at which a goal may be served.
+struct Alternative {
+  double x = 0.0;  // metres
+  double y = 0.0;
+  std::optional<double> theta = {};  // radians; none: any heading
+  double bias = 0.0;  // seconds, >= 0: added to the cost of choosing it, and to no time of the plan
+};
 
 /// A pose in which a robot comes to rest.
 struct Goal {
@@ -26,6 +35,13 @@ struct Goal {
   std::optional<double> linear_speed_after = {};
   std::optional<double> linear_acceleration_after = {};
   std::optional<double> linear_deceleration_after = {};
+  /// From 2 to 100 poses, at one of which the goal is served, instead of `x`, `y` and `theta`: which one is
+  /// chosen before the ways are planned, by when robots would arrive (docs/plan_request.md); Visit::choice
+  /// tells it. Robots that stay at their last goals get poses at which they do not overlap. Empty: none.
+  std::vector<Alternative> any_of = {};
+  /// The number in `any_of` of the only pose at which `committed` and `previous` serve the goal; none: that
+  /// in which they rest first. It does not bind the plan.
+  std::optional<std::size_t> choice = {};
 };
 
 /// A differential-drive robot: an open disk that waits, rotates in place or translates straight ahead (or
@@ -58,7 +74,10 @@ struct Robot {
 
   bool may_reverse = false;  // it may translate backwards
   double vicinity = 0.0;     // metres, >= 0: added to its radius against other robots only
-  double weight = 1.0;       // > 0: its cost and its delays count so many times in the objective
+  /// Seconds, >= 0, for which its next goal could have been served already: with a horizon, robots whose
+  /// goals are older are planned first.
+  double goal_age = 0.0;
+  double weight = 1.0;  // > 0: its cost and its delays count so many times in the objective
 
   /// Metres per second squared, > 0: how fast the speed of a translation rises and falls; radians per second
   /// squared, of rotations both ways. None: no limit; of the deceleration: that of the acceleration.

@@ -1,5 +1,7 @@
 #include "tests/fuzz/effort_requests.h"
 
+#include <fleetplan/limits.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -161,7 +163,6 @@ Json obstacles_of(const Extent& extent, Choices& choices) {
 /// Goals that are served at one of the starts of robots, as many as there may be; those of all, or others
 /// each.
 void add_open_goals(Json& robots, Choices& choices) {
-  constexpr std::size_t kMostPoses = 100;
   constexpr std::size_t kMostRobots = 190;  // with all poses within max_goals
   const std::size_t poses = std::min(robots.size(), 2 + static_cast<std::size_t>(choices.up_to(98)));
   if (poses < 2) return;

@@ -46,26 +46,6 @@ struct ParsedActions {
 std::optional<ParsedActions> parse_actions(const JsonReader& list, const ActionsOwner& owner,
                                            const WorldFrame& frame);
 
-/// See core::LoadOnTheWay. A goal that is open is served in the pose in which the robot rests first,
-/// if the request does not tell the pose.
-class OpenLoadOnTheWay {
- public:
-  OpenLoadOnTheWay(const core::Robot& robot, const std::vector<core::OpenGoal>& open);
-  OpenLoadOnTheWay(const OpenLoadOnTheWay&) = delete;
-  OpenLoadOnTheWay& operator=(const OpenLoadOnTheWay&) = delete;
-
-  const core::Load& load() const { return on_the_way_.load(); }
-  void execute(const core::Action& action);
-
- private:
-  const core::Robot& settled_at_start();
-  void settle(std::size_t goal, const core::Pose& pose);
-
-  core::Robot robot_;
-  std::vector<core::OpenGoal> open_;
-  core::LoadOnTheWay on_the_way_;
-};
-
 /// Joins the actions of a robot one after the other, in the map frame, and reports those that do not fit.
 /// Differences up to core::kContactTolerance (metres, seconds, radians) are accepted and removed, so that the
 /// core gets actions without gaps.
@@ -103,9 +83,9 @@ class ActionChain {
   std::size_t measured_;
   std::optional<double> now_ = 0.0;  // seconds; none: unknown, as is the pose
   std::optional<core::Pose> pose_;
-  std::optional<double> speed_;            // at the end of the action before; none: unknown
-  std::size_t count_ = 0;                  // number of the actions before
-  std::optional<OpenLoadOnTheWay> loads_;  // of a robot that changes its load
+  std::optional<double> speed_;                  // at the end of the action before; none: unknown
+  std::size_t count_ = 0;                        // number of the actions before
+  std::optional<core::OpenLoadOnTheWay> loads_;  // of a robot that changes its load
 };
 
 }  // namespace fleetplan::api

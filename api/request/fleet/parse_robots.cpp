@@ -1,5 +1,7 @@
 #include "api/request/fleet/parse_robots.h"
 
+#include <fleetplan/limits.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -37,10 +37,6 @@ std::optional<core::Goal> parse_pose(const JsonReader& pose, const WorldFrame& f
 /// Reads a pose that has no other members.
 std::optional<core::Goal> parse_plain_pose(const JsonReader& pose, const WorldFrame& frame);
 
-/// The fewest and the most poses of `any_of`.
-inline constexpr std::size_t kFewestPoses = 2;
-inline constexpr std::size_t kMostPoses = 100;
-
 /// Reads `goal` or `goals` of a robot. Without both, or with an empty list, there are none. `quota` limits
 /// the goals of the request, and the poses of `any_of`.
 ParsedGoals parse_goals(const JsonReader& robot, const WorldFrame& frame, Quota& quota);
