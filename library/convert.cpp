@@ -25,7 +25,7 @@ static_assert(same(Options::Objective::tardiness, core::PlanOptions::Objective::
 static_assert(same(Options::Priority::random, core::PlanOptions::Priority::random));
 static_assert(same(Options::Reordering::none, core::PlanOptions::Reordering::none));
 static_assert(same(Options::Replan::where_needed, core::PlanOptions::Replan::where_needed));
-static_assert(same(Unplanned::Reason::committed_in_the_way, core::Unplanned::Reason::committed_in_the_way));
+static_assert(same(Unplanned::Reason::invalid, core::Unplanned::Reason::invalid));
 static_assert(same(Violation::Kind::zone, core::Violation::Kind::zone));
 
 core::SpeedProfile profile_of(const Profile& profile) {

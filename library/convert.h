@@ -80,6 +80,7 @@ bool in_motion(const Problem& problem);
 struct MadeProblem {
   std::optional<core::PlanTask> task;
   std::vector<Fault> faults;
+  std::vector<std::vector<Fault>> invalid = {};  // the faults of each robot that is invalid; may be empty
 };
 
 MadeProblem make_problem(const Problem& problem, const Options& options, const std::stop_token& stop);

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -389,13 +390,6 @@ bool has_open_goals(const core::OpenGoals& open) {
   return std::any_of(open.begin(), open.end(), [](const auto& goals) { return !goals.empty(); });
 }
 
-core::ProblemConditions conditions_of(ReadFleet& fleet, const core::PlanOptions& options) {
-  core::ProblemConditions made = core::conditions_of(options);
-  made.obstacles = std::move(fleet.obstacles);
-  made.zones = std::move(fleet.zones);
-  return made;
-}
-
 }  // namespace
 
 bool in_motion(const Problem& problem) {
@@ -446,6 +440,98 @@ Fault described(const core::WithoutPose& goal, const core::OpenGoals& open) {
                           "obstacle or the edge of the map."};
 }
 
+bool is_of_a_pair(const core::ProblemFault& found) {
+  using Kind = core::ProblemFault::Kind;
+  return found.kind != Kind::start_in_obstacle && found.kind != Kind::goal_in_obstacle &&
+         found.other != found.robot;
+}
+
+/// Makes the problem, if need be again and again with more robots that are invalid.
+class ProblemMaker {
+ public:
+  ProblemMaker(const std::shared_ptr<const core::StaticMap>& map, ReadFleet fleet,
+               const core::PlanOptions& options, bool reports, const core::StopCondition& stop)
+      : map_(map), fleet_(std::move(fleet)), options_(options), reports_(reports), stop_(stop) {
+    if (reports_) made_.invalid.resize(fleet_.robots.size());
+  }
+
+  MadeProblem run() {
+    // Bounded: each time, another robot is invalid.
+    while (!stop_.met()) {
+      const bool any_open = has_open_goals(fleet_.open);
+      if (any_open && !choose_poses()) {
+        if (!made_.faults.empty()) break;
+        continue;
+      }
+      auto created = core::Problem::create(map_, fleet_.robots, conditions(), stop_);
+      if (auto* valid = std::get_if<core::Problem>(&created)) {
+        std::optional<core::OpenFleet> open;
+        if (any_open) open = core::OpenFleet{std::move(fleet_.robots), std::move(fleet_.open)};
+        made_.task = core::PlanTask{std::move(*valid), options_, std::move(open)};
+        break;
+      }
+      const auto& faults = std::get<core::ProblemFaults>(created);
+      if (!faults.finished || (reports_ && mark_invalid(faults))) continue;
+      for (const core::ProblemFault& found : faults.listed) made_.faults.push_back(described(found));
+      break;
+    }
+    return std::move(made_);
+  }
+
+ private:
+  /// Returns whether all open goals have a pose; otherwise there are faults, or robots are invalid.
+  bool choose_poses() {
+    const auto without = core::choose_without_search(map_, fleet_.zones, fleet_.robots, fleet_.open, stop_);
+    for (const core::WithoutPose& goal : without) {
+      const Fault fault = described(goal, fleet_.open);
+      if (reports_) {
+        make_invalid(goal.place.robot, fault);
+      } else {
+        made_.faults.push_back(fault);
+      }
+    }
+    return without.empty();
+  }
+
+  core::ProblemConditions conditions() const {
+    core::ProblemConditions made = core::conditions_of(options_);
+    made.obstacles = fleet_.obstacles;
+    made.zones = fleet_.zones;
+    made.list_faults_of_every_robot = reports_;
+    return made;
+  }
+
+  /// Makes the robots at fault invalid. Returns false if all of them were invalid before.
+  bool mark_invalid(const core::ProblemFaults& faults) {
+    bool any = false;
+    for (const core::ProblemFault& found : faults.listed) {
+      const Fault fault = described(found);
+      any = make_invalid(found.robot, fault) || any;
+      if (is_of_a_pair(found)) any = make_invalid(found.other, fault) || any;
+    }
+    return any;
+  }
+
+  bool make_invalid(std::size_t index, const Fault& fault) {
+    made_.invalid[index].push_back(fault);
+    core::Robot& robot = fleet_.robots[index];
+    if (robot.invalid) return false;
+    robot.invalid = true;
+    robot.goal.reset();
+    robot.via.clear();
+    robot.committed.clear();
+    robot.previous.reset();
+    return true;
+  }
+
+  const std::shared_ptr<const core::StaticMap>& map_;
+  ReadFleet fleet_;
+  const core::PlanOptions& options_;
+  const bool reports_;
+  const core::StopCondition& stop_;
+  MadeProblem made_;
+};
+
 }  // namespace
 
 MadeProblem make_problem(const Problem& problem, const Options& options, const std::stop_token& stop) {
@@ -457,24 +543,9 @@ MadeProblem make_problem(const Problem& problem, const Options& options, const s
   const core::StopCondition cancelled(core::StopCondition::Clock::time_point::max(), stop);
   const auto map = core::static_map(grid_of(problem.map), cancelled);
   if (!map) return made;
+  const bool reports = options.invalid_robots == Options::InvalidRobots::report;
   const core::PlanOptions core_options = options_of(options, in_motion(problem));
-  std::optional<core::OpenFleet> open;
-  if (has_open_goals(fleet.open)) {
-    const auto without = core::choose_without_search(map, fleet.zones, fleet.robots, fleet.open, cancelled);
-    for (const core::WithoutPose& goal : without) made.faults.push_back(described(goal, fleet.open));
-    if (!without.empty() || cancelled.met()) return made;
-    open = core::OpenFleet{fleet.robots, std::move(fleet.open)};
-  }
-  core::ProblemConditions conditions = conditions_of(fleet, core_options);
-  auto created = core::Problem::create(map, std::move(fleet.robots), std::move(conditions), cancelled);
-  if (auto* valid = std::get_if<core::Problem>(&created)) {
-    made.task = core::PlanTask{std::move(*valid), core_options, std::move(open)};
-    return made;
-  }
-  const auto& faults = std::get<core::ProblemFaults>(created);
-  if (!faults.finished) return made;
-  for (const core::ProblemFault& found : faults.listed) made.faults.push_back(described(found));
-  return made;
+  return ProblemMaker(map, std::move(fleet), core_options, reports, cancelled).run();
 }
 
 }  // namespace fleetplan::library

@@ -127,6 +127,9 @@ Plan plan(const Problem& problem, const Options& options, const Control& control
   plan.objective_value =
       core::objective_value(found.plan, found.task.problem.robots(), found.task.options.objective);
   plan.search.seconds = std::chrono::duration<double>(found.times.planned - found.times.begun).count();
+  for (Unplanned& robot : plan.unplanned) {
+    if (robot.reason == Unplanned::Reason::invalid) robot.faults = std::move(made.invalid[robot.robot]);
+  }
   if (!found.report) return plan;
   if (!found.report->valid()) {
     throw std::logic_error("fleetplan made a plan that its checker rejects: " +
@@ -158,6 +161,11 @@ Verification verify(const Problem& problem, std::span<const RobotPlan> plans, co
   const core::StopCondition stop(end_of(rules.time_budget, Clock::now()), rules.stop);
   const std::vector<core::RobotPlan> made = core_plans(plans, library::Frame(problem.map));
   settle_choices(plans, made, fleet, stop);
+  for (const std::size_t robot : rules.invalid) {
+    if (robot >= fleet.robots.size()) throw std::invalid_argument("there is no such invalid robot");
+    fleet.robots[robot].invalid = true;
+    fleet.robots[robot].committed.clear();
+  }
   auto report = core::verify({grid, fleet.robots, fleet.obstacles, &fleet.zones}, made, core_rules, stop);
   return report ? library::verification_of(std::move(*report)) : Verification();
 }
@@ -168,6 +176,9 @@ Verification verify(const Problem& problem, const Plan& plan, const Options& opt
   rules.start_overlap = options.start_overlap;
   rules.horizon = options.horizon;
   rules.unavoidable = plan.unavoidable;
+  for (const Unplanned& robot : plan.unplanned) {
+    if (robot.reason == Unplanned::Reason::invalid) rules.invalid.push_back(robot.robot);
+  }
   return verify(problem, std::span(plan.plans), rules);
 }
 

@@ -38,6 +38,7 @@
 ///     const fleetplan::Plan plan = fleetplan::plan(problem);
 
 #include <fleetplan/action.h>
+#include <fleetplan/fault.h>
 #include <fleetplan/limits.h>
 #include <fleetplan/map.h>
 #include <fleetplan/options.h>

@@ -25,6 +25,12 @@ struct Options {
     where_needed,  // previous plans that hold are kept, unless a robot could not be planned otherwise
   };
 
+  /// What becomes of robots whose poses or committed actions collide.
+  enum class InvalidRobots {
+    refuse,  // the problem is not valid
+    report,  // they are unplanned (Unplanned::Reason::invalid) and stand at their starts; others are planned
+  };
+
   /// The time for planning, > 0; the check of the plan may take a little longer. Robots that have no plan by
   /// then are unplanned.
   std::chrono::nanoseconds time_budget = std::chrono::seconds(5);
@@ -59,6 +65,7 @@ struct Options {
   /// Seconds up to which conflicts are resolved. A plan may stop there before its goal, where the robot may
   /// rest for good; see RobotPlan::estimated_cost. None: whole ways are planned.
   std::optional<double> horizon = {};
+  InvalidRobots invalid_robots = InvalidRobots::refuse;
   /// The number of steps by which `anytime` improves the plan; none: until the time budget ends.
   std::optional<std::int64_t> max_iterations = {};
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <fleetplan/action.h>
+#include <fleetplan/fault.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -54,11 +55,13 @@ struct Unplanned {
     blocked_by_robots,     // robots that stay are in its way: `blocked_by`
     budget_exhausted,      // the time or the memory was spent first
     committed_in_the_way,  // committed motion or an obstacle passes where it stands: Plan::unavoidable
+    invalid,               // its poses or committed actions collide: `faults`; see Options::invalid_robots
   };
   std::size_t robot = 0;
   Reason reason = Reason::budget_exhausted;
   std::string detail = {};                   // a sentence for people
   std::vector<std::size_t> blocked_by = {};  // ascending; the first twenty
+  std::vector<Fault> faults = {};            // of an invalid robot
 };
 
 /// An unavoidable collision, which no plan prevents: a robot cannot leave its place in time before the

@@ -1,12 +1,12 @@
 #pragma once
 
+#include <fleetplan/fault.h>
 #include <fleetplan/map.h>
 #include <fleetplan/options.h>
 #include <fleetplan/robot.h>
 #include <fleetplan/surroundings.h>
 
 #include <stdexcept>
-#include <string>
 #include <vector>
 
 namespace fleetplan {
@@ -28,15 +28,9 @@ struct Problem {
   std::vector<Zone> zones = {};
 };
 
-/// Something that is wrong with a problem or with options.
-struct Fault {
-  std::string place;   // the member, such as "robots[3].goals[0]" or "options.horizon"
-  std::string detail;  // a sentence for people, with units
-};
-
 /// Returns the faults of a problem and of the options for it: at most 20, in the order of robots; none if the
-/// problem can be planned. Geometry is examined only if all numbers are in their ranges. Takes milliseconds
-/// for a map of a million cells.
+/// problem can be planned, also without robots that Options::invalid_robots leaves out. Geometry is examined
+/// only if all numbers are in their ranges. Takes milliseconds for a map of a million cells.
 std::vector<Fault> faults_of(const Problem& problem, const Options& options = {});
 
 /// Thrown by functions that need a valid problem.

@@ -51,6 +51,7 @@ struct Rules {
   double start_overlap = 0.0;          // metres, as in Options
   std::optional<double> horizon = {};  // seconds, as in Options: plans that end later may end anywhere
   std::vector<UnavoidableCollision> unavoidable = {};  // collisions that are allowed, as in Plan
+  std::vector<std::size_t> invalid = {};  // robots that stand at their starts, see Options::invalid_robots
 
   /// The time for the check. Thousands of robots that move in one small area may take minutes.
   std::chrono::nanoseconds time_budget = std::chrono::seconds(60);
@@ -76,7 +77,8 @@ struct Verification {
 ///
 /// The problem need not be valid as a whole: overlapping starts are violations at t = 0. But its numbers have
 /// to be in their ranges, and lists as their types describe; throws InvalidProblem otherwise. Throws
-/// std::invalid_argument if a plan belongs to no robot, or two belong to the same one.
+/// std::invalid_argument if a plan belongs to no robot, two belong to the same one, a visit names a pose that
+/// its goal does not have, or an invalid robot does not exist.
 Verification verify(const Problem& problem, std::span<const RobotPlan> plans, const Rules& rules = {});
 
 /// Checks a plan of plan() for the same problem and options: by the rules that follow from the options, with

@@ -1,4 +1,4 @@
-#include <fleetplan/problem.h>
+#include <fleetplan/fleetplan.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -118,6 +118,35 @@ TEST(PublicFaults, NameProfilesThatDoNotFit) {
   problem.robots[1].angular_acceleration = 1e7;
   EXPECT_THAT(places(problem), ElementsAre("robots[0].linear_acceleration", "robots[0].linear_deceleration",
                                            "robots[1].angular_acceleration"));
+}
+
+TEST(PublicFaults, OfARobotMayLeaveTheOthersToBePlanned) {
+  Problem problem = corridor_swap();
+  problem.robots[0].goals = {{1.5, 0.5}};
+  problem.robots.push_back(robot_from({4.5, 1.5, 0.0}, {{4.5, 9.5}}));
+  problem.robots.push_back(robot_from({8.7, 0.5, 0.0}, {}));
+  Goal goal;
+  goal.any_of = {{2.5, 1.5}, {3.5, 1.5}};
+  problem.robots.push_back(robot_from({2.5, 0.5, 0.0}, {goal}));
+  EXPECT_FALSE(places(problem).empty());
+  Options options;
+  options.invalid_robots = Options::InvalidRobots::report;
+  EXPECT_THAT(places(problem, options), IsEmpty());
+  const Plan made = plan(problem, options);
+  std::vector<std::size_t> invalid;
+  for (const Unplanned& robot : made.unplanned) {
+    if (robot.reason != Unplanned::Reason::invalid) continue;
+    invalid.push_back(robot.robot);
+    ASSERT_FALSE(robot.faults.empty());
+  }
+  EXPECT_THAT(invalid, ElementsAre(1U, 2U, 3U, 4U));
+  ASSERT_EQ(made.plans.size(), 1U) << "the first robot";
+  EXPECT_EQ(made.unplanned[1].faults[0].place, "robots[2].goals[0]");
+  EXPECT_EQ(made.unplanned[3].faults[0].place, "robots[4].goals[0].any_of");
+  EXPECT_TRUE(made.verified);
+  EXPECT_TRUE(verify(problem, made, options).valid());
+  problem.robots[0].radius = -1.0;
+  EXPECT_THAT(places(problem, options), ElementsAre("robots[0].radius")) << "other faults are refused";
 }
 
 TEST(PublicFaults, AreThrownByThePlanner) {

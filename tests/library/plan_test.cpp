@@ -268,6 +268,7 @@ TEST(PublicOptions, HaveTheDefaultsOfTheService) {
   EXPECT_EQ(own.lattice_spacing, service.lattice_spacing);
   EXPECT_EQ(own.horizon, service.horizon);
   EXPECT_EQ(own.max_iterations, service.max_iterations);
+  EXPECT_EQ(Options().invalid_robots, Options::InvalidRobots::refuse);
   EXPECT_EQ(library::options_of(Options(), true).start_safe_interval, 0.0);
 }
 
