@@ -11,6 +11,7 @@
 #include "core/model/objective_share.h"
 #include "core/model/open_goal.h"
 #include "core/plan/make_plan.h"
+#include "core/runtime/budget.h"
 #include "core/runtime/executor.h"
 #include "core/runtime/stop_condition.h"
 #include "core/verify/verify.h"
@@ -21,9 +22,6 @@ namespace fleetplan {
 namespace {
 
 using Clock = core::StopCondition::Clock;
-
-/// The most time for the check after the budget: there is nobody else who waits.
-constexpr std::chrono::milliseconds kPatience{500};
 
 /// Returns the end of a time budget that may be very long.
 Clock::time_point end_of(std::chrono::nanoseconds budget, Clock::time_point begin) {
@@ -50,11 +48,10 @@ class Reporter : public core::PlanObserver {
 core::MadePlan planned(core::PlanTask task, const core::StopCondition& stop, const Control& control) {
   core::CallerThread thread;
   Reporter reporter(control.progress);
-  return core::make_plan(std::move(task),
-                         {.stop = stop,
-                          .patience = {kPatience, kPatience, kPatience, /*despite_cancel=*/true},
-                          .executor = thread,
-                          .observer = control.progress ? &reporter : nullptr});
+  return core::make_plan(std::move(task), {.stop = stop,
+                                           .patience = core::budget::patience_of_library(),
+                                           .executor = thread,
+                                           .observer = control.progress ? &reporter : nullptr});
 }
 
 /// Returns the plan of a call whose stop is requested while the problem is read.

@@ -23,6 +23,7 @@
 #include "api/travel/travel_requests.h"
 #include "api/vda5050/export.h"
 #include "api/vda5050/import.h"
+#include "core/runtime/budget.h"
 #include "core/runtime/executor.h"
 #include "core/runtime/memory_account.h"
 #include "core/runtime/shared_turn.h"
@@ -190,9 +191,8 @@ class Travelling {
 
   /// Waits for the turn of a request; returns false if it does not come.
   bool begin(const TravelWork& effort, std::chrono::nanoseconds budget) {
-    constexpr std::chrono::milliseconds kAnswerTime{100};
     budget_ = budget;
-    stop_ = work_.before_end(std::min<std::chrono::nanoseconds>(budget / 10, kAnswerTime));
+    stop_ = work_.before_end(core::budget::for_answer_of_travel(budget));
     const TurnNeed need{.kind = TurnNeed::Kind::travel,
                         .stop = *stop_,
                         .answer_by = stop_->deadline(),
@@ -284,9 +284,7 @@ namespace {
 
 /// Returns when no further run is made: a part of the budget is for the answer.
 core::StopCondition end_of_runs(const core::Work& work, const SimulateRequest& request) {
-  constexpr std::chrono::milliseconds kAnswerTime{50};
-  const auto answer = std::min<std::chrono::nanoseconds>(request.budget / 10, kAnswerTime);
-  return work.before_end(answer);
+  return work.before_end(core::budget::for_answer_of_runs(request.budget));
 }
 
 TurnNeed need_of(const SimulateRequest& request, const core::StopCondition& stop) {

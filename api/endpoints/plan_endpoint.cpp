@@ -18,6 +18,7 @@
 #include "core/model/plan.h"
 #include "core/plan/make_plan.h"
 #include "core/prioritized/narrow_places.h"
+#include "core/runtime/budget.h"
 #include "core/runtime/executor.h"
 #include "core/runtime/stop_condition.h"
 #include "core/verify/verify.h"
@@ -36,29 +37,6 @@ Reply rejected(PlanOutcome outcome, const core::VerifyReport& report, const std:
   outcome.status = PlanOutcome::Status::refused;
   reply.outcome = outcome;
   return reply;
-}
-
-/// The time to check a plan and write the answer: a twentieth of the budget, but at most what as many robots
-/// need whose plans have many moves, as in crowds.
-std::chrono::nanoseconds for_answer(const PlanRequest& request) {
-  constexpr std::chrono::milliseconds kLeast{25};
-  constexpr std::chrono::microseconds kForARobot{400};
-  const auto robots = static_cast<std::int64_t>(request.problem.robots().size());
-  const std::chrono::nanoseconds most = std::max<std::chrono::nanoseconds>(kLeast, robots * kForARobot);
-  return std::min<std::chrono::nanoseconds>(request.budget / 20, most);
-}
-
-/// Returns how long the check may take: soon after the end of planning, it is given up. Less if the plan was
-/// cancelled, as the service drains. The check of an answer in which no robot moves, if there is no other
-/// answer, ends not too soon after the budget: the time for reading the request tells how large it is and how
-/// busy the machine.
-core::CheckPatience patience_of(const PlanRequest& request, const StageTimes& stages) {
-  constexpr std::chrono::milliseconds kMostAfterPlanning{90};
-  constexpr std::chrono::milliseconds kLeastForNobody{200};
-  const auto reading = stages.parsed - stages.received;
-  return {.after_planning = std::max<std::chrono::nanoseconds>(kMostAfterPlanning, for_answer(request)),
-          .if_cancelled = kMostAfterPlanning / 2,
-          .for_nobody = std::max<StageTimes::Clock::duration>(kLeastForNobody, reading)};
 }
 
 /// Returns the 422 for a request whose robots and moving obstacles take too long to compare with each other.
@@ -132,6 +110,7 @@ std::vector<std::string> stuck_warning(const core::Plan& plan, const std::vector
 Reply plan_answer(const core::CheckedPlan& made, const PlanRequest& request, const std::string& request_id,
                   StageTimes stages, const AnsweredPlan& on_answer) {
   stages.planned = made.times.planned;
+  stages.parts = made.times.parts;
   const core::Problem& problem = made.task.problem;
   const auto& report = made.report;
   const PlanOutcome outcome =
@@ -163,29 +142,22 @@ Reply plan_answer(const core::CheckedPlan& made, const PlanRequest& request, con
 
 using Clock = RequestContext::Clock;
 
-/// Returns the part of the budget for the dependencies of the answer: several times what fleets have needed
-/// so far, at most a quarter.
-Clock::duration for_dependencies(const PlanRequest& request) {
-  if (!request.dependencies.wanted) return Clock::duration::zero();
-  constexpr std::chrono::milliseconds kForARobot{4};
-  const auto robots = static_cast<std::int64_t>(request.problem.robots().size());
-  return std::min<Clock::duration>(request.budget / 4, robots * kForARobot);
+/// Returns what the division of its budget depends on. `begin`: of reading.
+core::budget::Request measure_of(const PlanRequest& request, const StageTimes& stages,
+                                 StageTimes::Time begin) {
+  const core::OccupancyGrid& grid = request.problem.grid();
+  return {.budget = request.budget,
+          .reading = stages.parsed - begin,
+          .until_read = stages.parsed - stages.received,
+          .robots = request.problem.robots().size(),
+          .is_large_map = grid.columns() > core::budget::kManyCells / grid.rows(),
+          .has_obstacles = !request.problem.obstacles().empty()};
 }
 
-/// Returns the part of the budget after planning, to check the plan and write the answer: see for_answer();
-/// or a quarter of what reading the request took, which tells how large it is and how busy the machine. The
-/// unavoidable collisions of robots with moving obstacles, and their check, take up to half as long as
-/// reading them; the check of a very large map takes up to as long.
-Clock::duration kept_for_answer(const PlanRequest& request, Clock::duration reading) {
-  constexpr int kManyCells = 4'000'000;
-  const std::chrono::nanoseconds budget = request.budget;
-  const core::OccupancyGrid& grid = request.problem.grid();
-  const auto for_the_check = [&]() -> Clock::duration {
-    if (grid.columns() > kManyCells / grid.rows()) return std::min<Clock::duration>(budget / 2, reading);
-    if (!request.problem.obstacles().empty()) return std::min<Clock::duration>(budget / 2, reading / 2);
-    return std::min<Clock::duration>(budget / 4, reading / 4);
-  };
-  return for_dependencies(request) + std::max(for_answer(request), for_the_check());
+/// Returns what is kept of the budget for the answer.
+std::chrono::nanoseconds kept_for_answer(const PlanRequest& request, const core::budget::Request& measure) {
+  const auto kept = core::budget::kept_for_answer(measure);
+  return request.dependencies.wanted ? kept + core::budget::for_dependencies(measure) : kept;
 }
 
 /// Returns what the request needs of the server. A few robots on a small map take milliseconds, as a rule.
@@ -206,14 +178,14 @@ TurnNeed need_of(const PlanRequest& request, const core::StopCondition& stop, co
 
 Reply planned(const Planner& planner, std::string_view body, const RequestContext& context,
               core::Work& work) {
-  StageTimes stages{
-      .received = context.received_at, .parsed = {}, .started = {}, .planned = {}, .verified = {}};
+  StageTimes stages{.received = context.received_at};
   const auto begin = Clock::now();
   auto request = parse_request(body, context.limits, work, context.maps);
   if (!request) return problem_reply(request.failure(), context.request_id);
   stages.parsed = Clock::now();
 
-  const core::StopCondition stop = work.before_end(kept_for_answer(*request, stages.parsed - begin));
+  const core::budget::Request measure = measure_of(*request, stages, begin);
+  const core::StopCondition stop = work.before_end(kept_for_answer(*request, measure));
   const auto answer = [&](const core::CheckedPlan& made, const AnsweredPlan& on_answer) {
     if (made.task.open) tell_choices(made.task.open->goals, request->received);
     return plan_answer(made, *request, context.request_id, stages, on_answer);
@@ -236,7 +208,7 @@ Reply planned(const Planner& planner, std::string_view body, const RequestContex
   if (!has_come) return too_busy(context.request_id);
   core::CallerThread callers_thread;
   core::PlanMeans means{.stop = stop,
-                        .patience = patience_of(*request, stages),
+                        .patience = core::budget::patience_of_service(measure),
                         .executor = context.executor != nullptr ? *context.executor : callers_thread,
                         .observer = reporter ? &*reporter : nullptr,
                         .planner = planner};

@@ -19,6 +19,7 @@
 #include "core/model/problem.h"
 #include "core/model/progress.h"
 #include "core/plan/make_plan.h"
+#include "core/runtime/budget.h"
 #include "core/runtime/executor.h"
 #include "core/runtime/stop_condition.h"
 
@@ -66,7 +67,7 @@ class ProgressReporter final : public core::PlanObserver {
   static constexpr std::chrono::seconds kLeastPause{1};
   static constexpr int kLeastPauseFactor = 10;
   /// No answer is made in this last part of the time for planning.
-  static constexpr std::chrono::milliseconds kQuietEnd{250};
+  static constexpr std::chrono::milliseconds kQuietEnd = core::budget::kQuietEnd;
 
   /// Planning ends at `deadline`. `make_answer` writes the answer with a plan, or rejects
   /// it.

@@ -338,14 +338,19 @@ void write_unavoidable(JsonWriter& json, const core::UnavoidableCollision& colli
 }
 
 void write_timings(JsonWriter& json, const StageTimes& stages) {
-  const auto milliseconds = [](StageTimes::Time from, StageTimes::Time to) {
-    return std::chrono::duration<double, std::milli>(to - from).count();
+  const auto in_ms = [](StageTimes::Clock::duration time) {
+    return std::chrono::duration<double, std::milli>(time).count();
   };
+  const auto milliseconds = [&](StageTimes::Time from, StageTimes::Time to) { return in_ms(to - from); };
   const StageTimes::Time now = StageTimes::Clock::now();
   json.key("timings_ms").begin_object();
   json.member("queue", milliseconds(stages.parsed, stages.started));
   json.member("parse", milliseconds(stages.received, stages.parsed));
   json.member("plan", milliseconds(stages.started, stages.planned));
+  json.member("choose", in_ms(stages.parts.taken(core::PlanPart::choose)));
+  json.member("first_plan", in_ms(stages.parts.taken(core::PlanPart::first_plan)));
+  json.member("bounds", in_ms(stages.parts.taken(core::PlanPart::bounds)));
+  json.member("improve", in_ms(stages.parts.taken(core::PlanPart::improve)));
   json.member("verify", milliseconds(stages.planned, stages.verified));
   json.member("serialize", milliseconds(stages.verified, now));
   json.member("total", milliseconds(stages.received, now));

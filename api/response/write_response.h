@@ -16,6 +16,7 @@
 #include "core/model/problem.h"
 #include "core/model/robot.h"
 #include "core/model/surroundings.h"
+#include "core/plan/part_timer.h"
 #include "core/prioritized/enclosure.h"
 #include "core/runtime/stop_condition.h"
 #include "core/verify/verify.h"
@@ -27,10 +28,11 @@ struct StageTimes {
   using Clock = std::chrono::steady_clock;
   using Time = Clock::time_point;
   Time received;  // last byte of the body in
-  Time parsed;
-  Time started;  // the request has got its turn
-  Time planned;
-  Time verified;
+  Time parsed = {};
+  Time started = {};  // the request has got its turn
+  Time planned = {};
+  Time verified = {};
+  core::PartTimer parts{Time()};  // of the time from started to planned
 };
 
 /// A plan that has passed the check, and the other contents of an answer.

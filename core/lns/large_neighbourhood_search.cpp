@@ -12,6 +12,7 @@
 #include "core/lns/incumbent.h"
 #include "core/lns/iterations.h"
 #include "core/lns/pipeline.h"
+#include "core/runtime/budget.h"
 #include "core/runtime/memory_account.h"
 
 namespace fleetplan::core {
@@ -31,8 +32,6 @@ constexpr std::size_t kRound = 1024;
 /// Steps with a search for each robot before vertices get more neighbours (WorkspacePool::add_moves), and
 /// twice as many before they get more again: first, as many improvements as possible count, later, good ones.
 constexpr std::size_t kStepsPerRobot = 8;
-/// The last share of the time, and of the iterations if they are limited, in which all robots are smoothed.
-constexpr double kSmoothingShare = 0.1;
 /// Iterations without an improvement after which it is tested whether one is possible.
 constexpr int kVainIterations = 32;
 
@@ -63,11 +62,12 @@ class LargeNeighbourhoodSearch {
         workspaces_(state, incumbent_, stop),
         executor_(executor),
         stop_(stop),
-        time_to_smooth_(after_share(stop, 1.0 - kSmoothingShare)) {}
+        time_to_smooth_(after_share(stop, 1.0 - budget::kShareOfSmoothing)) {}
 
   LnsResult run(std::int64_t max_iterations, const BeforeRound& before_round) {
     iterations_left_ = max_iterations;
-    iterations_to_smooth_ = static_cast<std::int64_t>(kSmoothingShare * static_cast<double>(max_iterations));
+    iterations_to_smooth_ =
+        static_cast<std::int64_t>(budget::kShareOfSmoothing * static_cast<double>(max_iterations));
     try {
       improve(before_round);
     } catch (const std::bad_alloc&) {  // not granted to the job

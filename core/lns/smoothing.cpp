@@ -9,6 +9,7 @@
 #include "core/geometry/elementary_functions.h"
 #include "core/geometry/position.h"
 #include "core/model/objective_share.h"
+#include "core/runtime/budget.h"
 #include "core/sipp/timed_path.h"
 
 namespace fleetplan::core {
@@ -23,9 +24,8 @@ constexpr double kHalvings = 6.0;
 /// The shares of the tries that insert a bend, and that remove one; the others move one.
 constexpr double kInsertions = 0.2;
 constexpr double kRemovals = 0.1;
-/// Tries for each robot of a first plan, and the most time for them, as a share of what is left.
+/// Tries for each robot of a first plan.
 constexpr int kBriefTries = 50;
-constexpr double kBriefShare = 0.3;
 
 /// The path of one robot while it is made shorter.
 class Smoothing {
@@ -114,7 +114,7 @@ bool smooth_briefly(PlanState& state, std::vector<std::size_t> robots, Random& r
   FleetReservations& reservations = state.reservations();
   std::erase_if(robots, [&](std::size_t robot) { return reservations.trajectory(robot)->is_previous; });
   if (!may_smooth(state.instance().options()) || robots.empty()) return false;
-  const StopCondition soon = after_share(stop, kBriefShare);
+  const StopCondition soon = after_share(stop, budget::kShareOfBriefSmoothing);
   if (soon.met()) return true;
   reservations.resume();
   try {

@@ -1,7 +1,6 @@
 #include "core/plan/checked_plan.h"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 #include <vector>
 
@@ -51,19 +50,19 @@ Plan without_moves(const Plan& plan, const Problem& problem, const StopCondition
 
 /// Returns the condition for the check of the plan that was made. One that was cancelled may still be checked
 /// quickly.
-StopCondition stop_of_check(const StopCondition& planning, const CheckPatience& patience) {
-  constexpr std::chrono::milliseconds kLeastCpu{25};
+StopCondition stop_of_check(const StopCondition& planning, const budget::CheckPatience& patience) {
   const auto now = StopCondition::Clock::now();
   if (planning.cancelled()) return planning.even_if_cancelled(now + patience.if_cancelled);
   if (patience.despite_cancel) {
     return planning.even_if_cancelled(std::max(planning.deadline(), now + patience.after_planning));
   }
   if (planning.deadline() == StopCondition::Clock::time_point::max()) return planning;
-  return planning.until(planning.deadline() + patience.after_planning).with_cpu_time(kLeastCpu);
+  return planning.until(planning.deadline() + patience.after_planning)
+      .with_cpu_time(budget::kLeastCpuOfCheck);
 }
 
 /// Returns the condition for the check of a plan in which nobody moves.
-StopCondition last_stop(const StopCondition& planning, const CheckPatience& patience) {
+StopCondition last_stop(const StopCondition& planning, const budget::CheckPatience& patience) {
   const auto end = StopCondition::Clock::now() + patience.for_nobody;
   if (planning.cancelled()) return planning.even_if_cancelled(end);
   const auto later = std::max(end, stop_of_check(planning, patience).deadline());
@@ -87,7 +86,7 @@ CheckOfPlan check(const Plan& plan, const Problem& problem, const PlanOptions& o
 }
 
 CheckOfPlan check(const Plan& plan, const Problem& problem, const PlanOptions& options,
-                  const StopCondition& planning, const CheckPatience& patience) {
+                  const StopCondition& planning, const budget::CheckPatience& patience) {
   return check(plan, problem, options, stop_of_check(planning, patience).despite_memory(),
                [&] { return last_stop(planning, patience).despite_memory(); });
 }

@@ -8,6 +8,7 @@
 #include "core/model/plan.h"
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"
+#include "core/runtime/budget.h"
 #include "core/runtime/stop_condition.h"
 #include "core/verify/verify.h"
 
@@ -28,18 +29,9 @@ struct CheckOfPlan {
 CheckOfPlan check(const Plan& plan, const Problem& problem, const PlanOptions& options,
                   const StopCondition& stop, const std::function<auto()->StopCondition>& last);
 
-/// How long a check may take.
-struct CheckPatience {
-  using Duration = StopCondition::Clock::duration;
-  Duration after_planning;      // from the end of planning on, which may be in the past
-  Duration if_cancelled;        // from its begin on, if planning was cancelled
-  Duration for_nobody;          // from its begin on, if nobody moves in the plan, which is the last one left
-  bool despite_cancel = false;  // whether it goes on if a stop is requested meanwhile
-};
-
 /// Checks a plan that was made until `planning`. The check has at least the CPU time that a thousand robots
 /// with few moves need.
 CheckOfPlan check(const Plan& plan, const Problem& problem, const PlanOptions& options,
-                  const StopCondition& planning, const CheckPatience& patience);
+                  const StopCondition& planning, const budget::CheckPatience& patience);
 
 }  // namespace fleetplan::core

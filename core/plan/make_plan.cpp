@@ -9,6 +9,7 @@
 
 #include "core/plan/planner.h"
 #include "core/replan/kept_plans.h"
+#include "core/runtime/budget.h"
 #include "core/runtime/memory_account.h"
 #include "core/runtime/memory_lack.h"
 #include "core/runtime/shared_turn.h"
@@ -16,15 +17,13 @@
 namespace fleetplan::core {
 namespace {
 
-/// The part of the time for planning in which poses are chosen for goals that may be served at several.
-constexpr double kShareForChoices = 0.25;
 /// How often other poses are tried for robots that have no plan with theirs.
 constexpr int kMostSecondChoices = 2;
 
 /// Returns when what is decided without a search, at and after the end of `stop`, has to be.
 StopCondition::Clock::time_point end_without_search(const StopCondition& stop) {
   if (stop.deadline() == StopCondition::Clock::time_point::max()) return stop.deadline();
-  return std::max(stop.deadline(), StopCondition::Clock::now()) + kMostForPrevious;
+  return std::max(stop.deadline(), StopCondition::Clock::now()) + budget::kMostForPrevious;
 }
 
 /// Returns the end of planning, after which the plan is checked; later if there are previous plans.
@@ -36,16 +35,16 @@ StopCondition end_of_planning(const StopCondition& stop, const Problem& problem)
 class CheckingObserver final : public Observer {
  public:
   /// Plans are for `task`, and are passed on if fewer robots than `fewer_than` are unplanned.
-  CheckingObserver(const PlanTask& task, const PlanMeans& means, PlanTimes::Time begun,
+  CheckingObserver(const PlanTask& task, const PlanMeans& means, const PlanTimes& times,
                    std::size_t fewer_than)
-      : task_(task), means_(means), begun_(begun), fewer_than_(fewer_than) {}
+      : task_(task), means_(means), times_(times), fewer_than_(fewer_than) {}
 
   void progressed(const Progress& progress) override { means_.observer->progressed(progress); }
   bool wants_plan() override { return wants_any_ && means_.observer->wants_plan(); }
   void show(const Plan& plan) override {
     wants_any_ = plan.unplanned.size() < fewer_than_;
     if (!wants_any_) return;
-    const PlanTimes times{begun_, StopCondition::Clock::now()};
+    const PlanTimes times = times_.until(StopCondition::Clock::now());
     const StopCondition planning = end_of_planning(means_.stop, task_.problem);
     const CheckOfPlan check = core::check(plan, task_.problem, task_.options, planning, means_.patience);
     means_.observer->show({task_, check.checked(plan), check.report, times, planning});
@@ -54,7 +53,7 @@ class CheckingObserver final : public Observer {
  private:
   const PlanTask& task_;
   const PlanMeans& means_;
-  const PlanTimes::Time begun_;
+  const PlanTimes& times_;  // so far
   const std::size_t fewer_than_;
   bool wants_any_ = true;  // improvement plans no further robots
 };
@@ -97,9 +96,10 @@ class PlanMaker {
  private:
   /// Chooses the poses for open goals by how long robots take. Returns false if that was not finished in
   /// time; then they keep theirs.
-  bool choose_poses(PlanTask& task) const {
+  bool choose_poses(PlanTask& task) {
     if (!task.open) return true;
-    const StopCondition stop = after_share(stop_, kShareForChoices);
+    times_.parts.begin(PlanPart::choose);
+    const StopCondition stop = after_share(stop_, budget::kShareOfPoses);
     bool finished = false;
     try {
       auto problem = choose_by_arrival(task.problem, task.options, task.open->robots, task.open->goals,
@@ -114,14 +114,15 @@ class PlanMaker {
 
   /// Returns the planner's plan, or one that needs no search if the memory does not suffice for any other.
   /// Plans are shown only if fewer robots than `fewer_than` are unplanned.
-  Plan planned(const PlanTask& task, std::size_t fewer_than) const {
+  Plan planned(const PlanTask& task, std::size_t fewer_than) {
+    times_.parts.begin(PlanPart::first_plan);
     std::optional<CheckingObserver> checking;
-    if (means_.observer != nullptr) checking.emplace(task, means_, begun_, fewer_than);
+    if (means_.observer != nullptr) checking.emplace(task, means_, times_, fewer_than);
     Observer* observer = checking ? &*checking : nullptr;
     const std::int64_t lacks = memory_lacks();
     try {
       if (means_.planner) return means_.planner(task.problem, task.options, stop_, observer);
-      return plan(task.problem, task.options, stop_, means_.executor, observer);
+      return plan(task.problem, task.options, stop_, means_.executor, observer, &times_.parts);
     } catch (const std::bad_alloc&) {
       if (MemoryScope::current() == nullptr || memory_lacks() > lacks) throw;
       const StopCondition end = stop_.even_if_cancelled(end_without_search(stop_)).despite_memory();
@@ -130,7 +131,7 @@ class PlanMaker {
   }
 
   /// Returns the plan, or one with other poses for open goals in which fewer robots are unplanned.
-  Attempt with_other_poses(Attempt best) const {
+  Attempt with_other_poses(Attempt best) {
     for (int k = 0; best.task.open && !best.plan.unplanned.empty() && k < kMostSecondChoices; ++k) {
       PlanTask other = best.task;
       if (!give_up_poses(best.plan, other.open->goals)) break;
@@ -151,12 +152,13 @@ class PlanMaker {
   Plan without_search(const PlanTask& task) const {
     const char* detail = means_.stop.cancelled() ? "Planning was stopped before it began."
                                                  : "The time budget was spent before planning could begin.";
-    return plan_without_search(task.problem, task.options, detail,
-                               means_.stop.even_if_cancelled(StopCondition::Clock::now() + kMostForPrevious));
+    return plan_without_search(
+        task.problem, task.options, detail,
+        means_.stop.even_if_cancelled(StopCondition::Clock::now() + budget::kMostForPrevious));
   }
 
   MadePlan checked(Attempt made, bool is_searched) const {
-    const PlanTimes times{begun_, StopCondition::Clock::now()};
+    const PlanTimes times = times_.until(StopCondition::Clock::now());
     StopCondition planning = end_of_planning(means_.stop, made.task.problem);
     CheckOfPlan check =
         core::check(made.plan, made.task.problem, made.task.options, planning, means_.patience);
@@ -166,7 +168,7 @@ class PlanMaker {
   }
 
   const PlanMeans& means_;
-  const PlanTimes::Time begun_ = StopCondition::Clock::now();
+  PlanTimes times_{StopCondition::Clock::now()};
   SharedTurn turn_;
   const StopCondition stop_;  // shares the turn
 };

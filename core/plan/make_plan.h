@@ -3,7 +3,6 @@
 // The door of core: chooses the poses of goals that have several, plans, checks the plan, and falls back to
 // one that needs less where time or memory does not suffice.
 
-#include <chrono>
 #include <functional>
 #include <optional>
 
@@ -12,6 +11,8 @@
 #include "core/model/problem.h"
 #include "core/model/progress.h"
 #include "core/plan/checked_plan.h"
+#include "core/plan/part_timer.h"
+#include "core/runtime/budget.h"
 #include "core/runtime/executor.h"
 #include "core/runtime/stop_condition.h"
 #include "core/travel/goal_choice.h"
@@ -26,11 +27,22 @@ struct PlanTask {
   std::optional<OpenFleet> open = {};  // goals that may be served at several poses; none: there are none
 };
 
-/// When the parts of planning ended.
+/// When a plan was made, and how long the parts of that took.
 struct PlanTimes {
   using Time = StopCondition::Clock::time_point;
+
+  explicit PlanTimes(Time begin) : begun(begin), planned(begin), parts(begin) {}
+  /// Returns the times if planning ends at this one.
+  PlanTimes until(Time end) const {
+    PlanTimes ended = *this;
+    ended.planned = end;
+    ended.parts.begin(PlanPart::first_plan, end);
+    return ended;
+  }
+
   Time begun;
   Time planned;  // before the check
+  PartTimer parts;
 };
 
 /// A plan and what the check says of it. Refers to values of make_plan().
@@ -65,8 +77,8 @@ using Planner = std::function<Plan(const Problem&, const PlanOptions&, const Sto
 
 /// How a plan is made: with how much time, by which threads, and who follows it.
 struct PlanMeans {
-  StopCondition stop;  // the end of planning, unless there are previous plans, see kMostForPrevious
-  CheckPatience patience;
+  StopCondition stop;  // the end of planning, unless there are previous plans, see budget.h
+  budget::CheckPatience patience;
   Executor& executor;  // its threads make `anytime` and the choice of poses faster, and change nothing
   PlanObserver* observer = nullptr;
   std::function<bool()> go_on = {};  // see SharedTurn; empty: the turn is not shared

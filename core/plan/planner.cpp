@@ -22,6 +22,7 @@
 #include "core/prioritized/triage.h"
 #include "core/prioritized/yielding.h"
 #include "core/replan/kept_plans.h"
+#include "core/runtime/budget.h"
 #include "core/runtime/memory_account.h"
 
 namespace fleetplan::core {
@@ -46,9 +47,6 @@ Objectives objectives_of(const FleetReservations& reservations) {
   return objectives;
 }
 
-/// The maximum share of the remaining time for lower bounds in mode `anytime`; the rest is for improvement.
-constexpr double kBoundsShare = 0.2;
-
 /// The robots that triage leaves to be planned.
 std::vector<std::size_t> robots_to_plan(const FleetReservations& reservations,
                                         const std::vector<std::optional<Unplanned>>& unplanned) {
@@ -61,16 +59,10 @@ std::vector<std::size_t> robots_to_plan(const FleetReservations& reservations,
   return movers;
 }
 
-/// The most time for finding unavoidable collisions. Without them, no plan can be checked.
-constexpr std::chrono::milliseconds kMostForUnavoidable{150};
-
-/// The time for undoing vain moves after improvement, and for finding out why robots are stuck: also after
-/// the budget is spent.
-constexpr std::chrono::milliseconds kTimeForTheEnd{30};
-
 StopCondition briefly(const StopCondition& stop) {
   using Clock = StopCondition::Clock;
-  return stop.deadline() == Clock::time_point::max() ? stop : stop.until(Clock::now() + kTimeForTheEnd);
+  return stop.deadline() == Clock::time_point::max() ? stop
+                                                     : stop.until(Clock::now() + budget::kTimeForTheEnd);
 }
 
 StopCondition beyond_budget(const StopCondition& stop, std::chrono::milliseconds most) {
@@ -81,14 +73,11 @@ StopCondition beyond_budget(const StopCondition& stop, std::chrono::milliseconds
   return stop.until(std::max(stop.deadline(), now) + most).despite_memory();
 }
 
-/// Returns a condition that leaves at least a little time for planning. Robots without a plan are in the way
-/// of others, so a budget that is spent would cost plans that hold. A few robots are planned around hundreds
-/// of others in less than this.
+/// Returns a condition that leaves at least a little time for planning.
 StopCondition with_least_time(const StopCondition& stop) {
   using Clock = StopCondition::Clock;
-  constexpr std::chrono::milliseconds kLeastTime{40};
-  if (stop.cancelled() || stop.deadline() >= Clock::now() + kLeastTime) return stop;
-  return stop.until(Clock::now() + kLeastTime);
+  if (stop.cancelled() || stop.deadline() >= Clock::now() + budget::kLeastAroundKept) return stop;
+  return stop.until(Clock::now() + budget::kLeastAroundKept);
 }
 
 /// Whether all robots keep their previous plans, and no search can change that. A robot with a goal that
@@ -122,7 +111,7 @@ KeptPlans plans_to_begin_with(const Problem& problem, const PlanOptions& options
 KeptPlans certain_plans(const KeptPlans& previous, const Instance& instance, const StopCondition& stop) {
   if (std::count(previous.kept.begin(), previous.kept.end(), true) == 0) return {};
   KeptPlans certain = keep_if_others_stay(instance.problem(), instance.options(), previous,
-                                          beyond_budget(stop, kMostForPrevious));
+                                          beyond_budget(stop, budget::kMostForPrevious));
   return certain.cut_off ? KeptPlans{} : certain;
 }
 
@@ -281,14 +270,15 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
 }
 
 Plan plan(const Problem& problem, const PlanOptions& options, const StopCondition& stop, Executor& executor,
-          Observer* observer) {
+          Observer* observer, PartTimer* timer) {
   const auto memory = std::make_shared<PlanMemory>(problem, options, stop);
   const Instance& instance = memory->instance;
   PlanState& state = memory->state;
   ProgressReport progress(state.reservations(), observer);
   Random random(options.seed);
 
-  const KeptPlans previous = plans_to_begin_with(problem, options, beyond_budget(stop, kMostForPrevious));
+  const KeptPlans previous =
+      plans_to_begin_with(problem, options, beyond_budget(stop, budget::kMostForPrevious));
   std::vector<std::optional<Unplanned>> unplanned = triage(state, stop, previous.kept);
   std::vector<std::size_t> movers = robots_to_plan(state.reservations(), unplanned);
   PrioritizedResult prioritized = first_plan(state, previous, movers, random, stop, progress);
@@ -300,12 +290,13 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
   cut_off = smooth_briefly(state, movers, random, stop) || cut_off;
   unplanned = with_zones_named(problem, options, std::move(unplanned), stop);
   const UnavoidableCollisions found =
-      find_unavoidable(state.reservations(), unplanned, beyond_budget(stop, kMostForUnavoidable));
+      find_unavoidable(state.reservations(), unplanned, beyond_budget(stop, budget::kMostForUnavoidable));
   progress.plan_found(objectives_of(state.reservations()));
 
   const bool anytime = options.mode == PlanOptions::Mode::anytime;
+  if (timer != nullptr) timer->begin(PlanPart::bounds);
   const TautPathBounds bounds(instance, movers, costs_of(state.reservations()),
-                              anytime ? after_share(stop, kBoundsShare) : stop);
+                              anytime ? after_share(stop, budget::kShareOfBounds) : stop);
   const std::int64_t expansions = state.expansions();
   const auto current_plan = [&](const LnsResult& lns) {
     Plan plan = collect_plan(state.reservations(), unplanned, bounds);
@@ -314,6 +305,7 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
     plan.search = {prioritized.attempts, expansions + lns.expansions, lns.improvements};
     return plan;
   };
+  if (timer != nullptr) timer->begin(PlanPart::improve);
   LnsResult lns;
   if (anytime) {
     BeforeRound before_round;

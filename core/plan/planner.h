@@ -4,6 +4,7 @@
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"
 #include "core/model/progress.h"
+#include "core/plan/part_timer.h"
 #include "core/runtime/executor.h"
 #include "core/runtime/stop_condition.h"
 
@@ -29,10 +30,10 @@ inline constexpr const char* kMemorySpent =
 /// 6. Collects the trajectories as actions.
 ///
 /// Plans depend only on the problem, the options and the build, unless `deterministic` is false. The
-/// executor's threads make `anytime` faster; neither they nor the observer, which may be null, change the
-/// plan.
+/// executor's threads make `anytime` faster; neither they nor the observer or the timer, which may be null,
+/// change the plan. The timer is told when `bounds` and `improve` begin.
 Plan plan(const Problem& problem, const PlanOptions& options, const StopCondition& stop, Executor& executor,
-          Observer* observer = nullptr);
+          Observer* observer = nullptr, PartTimer* timer = nullptr);
 
 /// Plans in the caller's thread, without an observer.
 Plan plan(const Problem& problem, const PlanOptions& options, const StopCondition& stop);

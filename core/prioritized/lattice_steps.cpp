@@ -10,6 +10,7 @@
 #include "core/geometry/disk_motion.h"
 #include "core/geometry/tolerance.h"
 #include "core/prioritized/lacam.h"
+#include "core/runtime/budget.h"
 
 namespace fleetplan::core {
 namespace {
@@ -19,8 +20,6 @@ namespace {
 constexpr double kClear = 1.1181;
 /// The most vertices of all graphs together: 64 MB.
 constexpr std::size_t kMostVertices = 4'000'000;
-/// The share of the time that is left which steps may take before something else is tried.
-constexpr double kShareOfSteps = 0.4;
 
 bool is_simple(const Instance& instance, std::size_t robot) {
   const Itinerary& itinerary = instance.itinerary(robot);
@@ -302,7 +301,7 @@ StepsOutcome follow_steps(FleetReservations& reservations, const std::vector<std
     if (!moves[i] && reservations.trajectory(i))
       return StepsOutcome::none;  // its motion is not known to steps
   }
-  const StopCondition part = after_share(stop, kShareOfSteps);
+  const StopCondition part = after_share(stop, budget::kShareOfSteps);
   const FleetReservations::Snapshot before = reservations.snapshot();
   try {
     auto trajectories = plan_in_steps(reservations, robots, random, part);

@@ -1,25 +1,18 @@
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 #include "core/prioritized/orderings.h"
 #include "core/prioritized/partial_plan.h"
 #include "core/prioritized/prioritized_planning.h"
 #include "core/prioritized/repair.h"
+#include "core/runtime/budget.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
 namespace {
 
-/// The least time that is divided in two parts. Keeping a safe plan and returning to where planning was takes
-/// some 0.1 s for 500 robots; in less time, repairs of the plan are better left to run.
-constexpr std::chrono::milliseconds kLeastFirstPart{250};
-
-/// The share of the time for planning, if the rest is for robots that gave way and may return.
-constexpr double kShareOfPlanning = 0.95;
-
 bool has_time_for_two_parts(const PlanningTime& time) {
-  return time.first_part.deadline() - StopCondition::Clock::now() >= kLeastFirstPart;
+  return time.first_part.deadline() - StopCondition::Clock::now() >= budget::kLeastFirstPart;
 }
 
 class PlanningAroundKept {
@@ -33,7 +26,7 @@ class PlanningAroundKept {
         is_certain_(certain),
         random_(random),
         end_(time.all),
-        time_(returns_robots() ? PlanningTime::until(after_share(time.all, kShareOfPlanning)) : time),
+        time_(returns_robots() ? PlanningTime::until(after_share(time.all, budget::kShareAroundKept)) : time),
         progress_(progress),
         stop_(has_time_for_two_parts(time_) ? time_.first_part : time_.keeping),
         kept_(reservations_.snapshot()) {}

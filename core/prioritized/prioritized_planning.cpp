@@ -11,6 +11,7 @@
 #include "core/prioritized/partial_plan.h"
 #include "core/prioritized/repair.h"
 #include "core/prioritized/yielding.h"
+#include "core/runtime/budget.h"
 
 namespace fleetplan::core {
 namespace {
@@ -20,11 +21,6 @@ namespace {
 constexpr std::size_t kFewRobots = 4;
 /// Attempts in random orders, each with repairs, if no deadline ends them.
 constexpr int kMaxOrdersWithoutDeadline = 10;
-/// The shares of the time after which a safe plan is made, and after which the making of it ends.
-constexpr double kFirstShare = 0.5;
-constexpr double kKeepingShare = 0.9;
-/// The share of the first part of the time which finding the order of expected arrivals may take.
-constexpr double kOrderShare = 0.2;
 /// The failed attempts after which robots of different sizes are planned again in that order, if they were
 /// planned in another one.
 constexpr std::int64_t kMaxFailures = 15;
@@ -144,7 +140,8 @@ class PrioritizedPlanning {
   }
 
   void order_by_arrival() {
-    ExpectedOrder expected = order_by_expected_arrival(state_, order_, after_share(stop_, kOrderShare));
+    ExpectedOrder expected =
+        order_by_expected_arrival(state_, order_, after_share(stop_, budget::kShareOfOrder));
     order_ = std::move(expected.robots);
     result_.cut_off = result_.cut_off || expected.cut_off;
   }
@@ -270,7 +267,8 @@ class PrioritizedPlanning {
 }  // namespace
 
 PlanningTime PlanningTime::until(const StopCondition& stop) {
-  return {after_share(stop, kFirstShare), after_share(stop, kKeepingShare), stop};
+  return {after_share(stop, budget::kShareBeforeSafePlan), after_share(stop, budget::kShareWithSafePlan),
+          stop};
 }
 
 PrioritizedResult plan_prioritized(PlanState& state, const std::vector<std::size_t>& movers, Random& random,

@@ -2,7 +2,6 @@
 
 // Previous plans: which of them hold, and plans that go on with those.
 
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -17,11 +16,6 @@
 namespace fleetplan::core {
 
 class FleetReservations;
-
-/// The most time after the budget for the check of previous plans, which decides whether they are kept. It
-/// takes about 10 ms for 500 robots; the limit is for plans in which many robots meet in one small area, and
-/// for a busy machine.
-inline constexpr std::chrono::milliseconds kMostForPrevious{500};
 
 /// Whether any robot has a previous plan.
 bool have_previous_plans(const std::vector<Robot>& robots);

@@ -401,6 +401,10 @@ class Timings(TypedDict):
     queue: float
     parse: float
     plan: float
+    choose: float
+    first_plan: float
+    bounds: float
+    improve: float
     verify: float
     serialize: float
     total: float

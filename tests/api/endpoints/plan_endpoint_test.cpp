@@ -139,7 +139,8 @@ TEST(PlanEndpoint, ReturnsTheDocumentedMembersInOrder) {
   EXPECT_THAT(keys_of(answer["lower_bound"]), ElementsAre("flowtime", "makespan"));
   EXPECT_THAT(keys_of(answer["search"]), ElementsAre("attempts", "expansions", "improvements"));
   EXPECT_THAT(keys_of(answer["timings_ms"]),
-              ElementsAre("queue", "parse", "plan", "verify", "serialize", "total"));
+              ElementsAre("queue", "parse", "plan", "choose", "first_plan", "bounds", "improve", "verify",
+                          "serialize", "total"));
 }
 
 TEST(PlanEndpoint, ReturnsPositionsInTheClientsWorld) {
@@ -208,6 +209,27 @@ TEST(PlanEndpoint, ReturnsTimingsWhoseTotalIsAtLeastTheirSum) {
   }
   EXPECT_GE(timings["queue"].get<double>(), 20.0);
   EXPECT_GE(timings["total"].get<double>(), sum - 1e-6);
+}
+
+TEST(PlanEndpoint, ShowsTheTimesOfThePartsOfPlanning) {
+  Json request = swap_request();
+  const auto timings_of = [](const Json& one) {
+    const Json timings = planned(one)["timings_ms"];
+    double sum = 0.0;
+    for (const char* part : {"choose", "first_plan", "bounds", "improve"}) sum += timings[part].get<double>();
+    EXPECT_LE(sum, timings["plan"].get<double>() + 1e-6);
+    return timings;
+  };
+  const Json first = timings_of(request);
+  EXPECT_EQ(first["choose"], 0.0) << "no goal has several poses";
+  EXPECT_GT(first["first_plan"], 0.0);
+  EXPECT_GT(first["bounds"], 0.0);
+  const Json goal = request["robots"][0]["goal"];
+  request["robots"][0]["goal"] = {{"any_of", {goal, goal}}};
+  request["options"] = {{"mode", "anytime"}, {"max_iterations", 50}};
+  const Json improved = timings_of(request);
+  EXPECT_GT(improved["choose"], 0.0);
+  EXPECT_GT(improved["improve"], 0.0);
 }
 
 TEST(PlanEndpoint, DoesNotPlanWhenTheBudgetIsSpentInTheQueue) {

@@ -180,7 +180,7 @@ class Shown {
                              {}};
   const core::Plan plan_;
   const std::optional<core::VerifyReport> report_;
-  const core::PlanTimes times_{};
+  const core::PlanTimes times_{core::StopCondition::Clock::now()};
   const core::StopCondition planning_ = core::StopCondition::never();
 };
 
