@@ -10,6 +10,7 @@
 #include "api/json/json_writer.h"
 #include "api/request/shared_members.h"
 #include "core/execution/dependencies.h"
+#include "core/fleet/enclosure.h"
 #include "core/geometry/position.h"
 #include "core/model/action.h"
 #include "core/model/plan.h"
@@ -17,7 +18,6 @@
 #include "core/model/robot.h"
 #include "core/model/surroundings.h"
 #include "core/plan/part_timer.h"
-#include "core/prioritized/enclosure.h"
 #include "core/runtime/stop_condition.h"
 #include "core/verify/verify.h"
 

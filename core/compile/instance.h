@@ -7,8 +7,6 @@
 #include <memory>
 #include <vector>
 
-#include "core/commitments/contacts.h"
-#include "core/commitments/fixed_reservations.h"
 #include "core/compile/views.h"
 #include "core/geometry/position.h"
 #include "core/map/lattice.h"
@@ -17,6 +15,8 @@
 #include "core/model/itinerary.h"
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"
+#include "core/reservation/contacts.h"
+#include "core/reservation/fixed_reservations.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {

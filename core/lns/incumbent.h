@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "core/compile/instance.h"
+#include "core/fleet/plan_state.h"
 #include "core/lns/neighbourhood.h"
 #include "core/lns/smoothing.h"
 #include "core/model/plan_options.h"
 #include "core/model/trajectory.h"
-#include "core/prioritized/plan_state.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "core/bounds/taut_path_bounds.h"
+#include "core/fleet/plan_state.h"
 #include "core/lns/incumbent.h"
 #include "core/lns/neighbourhood.h"
-#include "core/prioritized/plan_state.h"
 #include "core/runtime/random.h"
 #include "core/runtime/stop_condition.h"
 #include "core/sipp/aa_sipp.h"

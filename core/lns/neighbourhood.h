@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/bounds/taut_path_bounds.h"
-#include "core/prioritized/plan_state.h"
+#include "core/fleet/plan_state.h"
 #include "core/runtime/random.h"
 #include "core/runtime/stop_condition.h"
 

@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
+#include "core/fleet/plan_state.h"
 #include "core/model/plan_options.h"
 #include "core/model/trajectory.h"
-#include "core/prioritized/plan_state.h"
 #include "core/runtime/random.h"
 #include "core/runtime/stop_condition.h"
 

@@ -143,4 +143,14 @@ struct Plan {
   SearchStatistics search;
 };
 
+/// The objectives of the estimates, without robots that have none.
+inline Objectives estimated_objectives(const Plan& plan) {
+  Objectives estimated;
+  for (const RobotPlan& robot : plan.plans) {
+    const double cost = robot.estimated_cost.value_or(robot.cost);
+    if (cost < kForever) estimated = including(estimated, cost);
+  }
+  return estimated;
+}
+
 }  // namespace fleetplan::core

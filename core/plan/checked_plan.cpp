@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/commitments/unavoidable_collisions.h"
+#include "core/explain/unavoidable_collisions.h"
 #include "core/model/itinerary.h"
 
 namespace fleetplan::core {

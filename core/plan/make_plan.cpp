@@ -7,8 +7,8 @@
 #include <new>
 #include <utility>
 
+#include "core/plan/kept_plans.h"
 #include "core/plan/planner.h"
-#include "core/replan/kept_plans.h"
 #include "core/runtime/budget.h"
 #include "core/runtime/memory_account.h"
 #include "core/runtime/memory_lack.h"

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/commitments/contacts.h"
 #include "core/geometry/bucket_grid.h"
 #include "core/geometry/disk_motion.h"
 #include "core/geometry/segment.h"
+#include "core/reservation/contacts.h"
 #include "core/runtime/arrays.h"
 
 namespace fleetplan::core {

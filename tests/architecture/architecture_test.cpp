@@ -149,19 +149,19 @@ TEST(SourceRules, RejectPlanningOfAllRobotsInFoldersForOneRobot) {
   for (const std::string folder :
        {"geometry", "map", "model", "compile", "runtime", "reservation", "bounds", "sipp"}) {
     const std::string path = "core/" + folder + "/a.cpp";
-    EXPECT_THAT(violations(path, "#include \"core/prioritized/plan_state.h\"\n"),
-                ElementsAre(path + " must not include \"core/prioritized/plan_state.h\""));
+    EXPECT_THAT(violations(path, "#include \"core/fleet/plan_state.h\"\n"),
+                ElementsAre(path + " must not include \"core/fleet/plan_state.h\""));
     EXPECT_THAT(violations(path, "#include \"core/lns/incumbent.h\"\n"), ElementsAre(HasSubstr("core/lns/")));
     EXPECT_THAT(violations(path, "#include \"core/map/lattice.h\"\n"), IsEmpty());
   }
-  EXPECT_THAT(violations("core/lns/a.cpp", "#include \"core/prioritized/plan_state.h\"\n"), IsEmpty());
+  EXPECT_THAT(violations("core/lns/a.cpp", "#include \"core/fleet/plan_state.h\"\n"), IsEmpty());
 }
 
 TEST(SourceRules, RejectTheSearchInTheChecker) {
   const std::string path = "core/verify/a.cpp";
   for (const std::string header :
-       {"core/reservation/reservation_table.h", "core/sipp/aa_sipp.h", "core/prioritized/plan_state.h",
-        "core/lns/incumbent.h", "core/bounds/lower_bound.h", "core/replan/a.h",
+       {"core/reservation/reservation_table.h", "core/sipp/aa_sipp.h", "core/fleet/plan_state.h",
+        "core/lns/incumbent.h", "core/bounds/lower_bound.h", "core/plan/a.h",
         "core/geometry/disk_motion.h"}) {
     EXPECT_THAT(violations(path, "#include \"" + header + "\"\n"),
                 ElementsAre(path + " must not include \"" + header + "\""));
@@ -180,8 +180,8 @@ TEST(SourceRules, RejectTheReadingOfRequestsInTheChecker) {
 TEST(SourceRules, RejectRobotsWhereTheyAreCompiled) {
   const std::string reads = "double f(const Robot& robot) { return robot.radius; }\n";
   EXPECT_THAT(violations("core/sipp/a.cpp", reads), ElementsAre(HasSubstr("Robot")));
-  EXPECT_THAT(violations("core/prioritized/a.cpp", reads), SizeIs(1));
-  EXPECT_THAT(violations("core/prioritized/collect_plan.cpp", reads), IsEmpty());
+  EXPECT_THAT(violations("core/moves/a.cpp", reads), SizeIs(1));
+  EXPECT_THAT(violations("core/plan/collect_plan.cpp", reads), IsEmpty());
   EXPECT_THAT(violations("core/compile/a.cpp", reads), IsEmpty());
   EXPECT_THAT(violations("core/sipp/a.cpp", "RobotPlan plan;  // of a Robot\n"), IsEmpty());
 }

@@ -72,16 +72,19 @@ const std::vector<Layer>& layers() {
   return all;
 }
 
-/// Folders whose files read what a request was compiled to, and not its robots; and those of their files that
-/// make or judge the plan that is returned, and may read them.
-constexpr std::array<string_view, 6> kWithoutRobots{"core/bounds/",      "core/commitments/", "core/lns/",
-                                                    "core/prioritized/", "core/reservation/", "core/sipp/"};
-constexpr std::array<string_view, 3> kReadRobots{"core/prioritized/collect_plan.cpp",
-                                                 "core/prioritized/collect_plan.h",
-                                                 "core/prioritized/narrow_places.cpp"};
+/// Folders whose files read what a request was compiled to, and not its robots; and the file that compiles
+/// one of them alone.
+constexpr std::array<string_view, 7> kWithoutRobots{"core/bounds/", "core/explain/", "core/fleet/",
+                                                    "core/lns/",    "core/moves/",   "core/reservation/",
+                                                    "core/sipp/"};
+constexpr string_view kReadsRobots = "core/explain/narrow_places.cpp";
 
 const std::vector<FolderRule>& folder_rules() {
-  static const std::vector<string_view> all_robots = {"core/prioritized/", "core/lns/"};
+  static const std::vector<string_view> all_robots = {"core/explain/", "core/fleet/", "core/lns/",
+                                                      "core/moves/", "core/plan/"};
+  static const std::vector<string_view> planning = {"core/bounds/", "core/explain/",    "core/fleet/",
+                                                    "core/lns/",    "core/moves/",      "core/plan/",
+                                                    "core/sipp/",   "core/reservation/"};
   static const std::vector<FolderRule> all = {
       // JSON knows nothing of the service; requests know nothing of answers, which may repeat parts of them.
       {"api/json/", {"api/request/", "api/response/", "api/endpoints/"}, {}},
@@ -94,27 +97,21 @@ const std::vector<FolderRule>& folder_rules() {
       {"core/map/", all_robots, {}},
       {"core/model/", all_robots, {}},
       {"core/runtime/", all_robots, {}},
-      {"core/commitments/", all_robots, {}},
       {"core/reservation/", all_robots, {}},
       {"core/bounds/", all_robots, {}},
       {"core/compile/", all_robots, {}},
       {"core/sipp/", all_robots, {}},
-      // What follows from a plan, whoever made it.
-      {"core/advance/",
-       {"core/reservation/", "core/sipp/", "core/prioritized/", "core/lns/", "core/bounds/", "core/replan/"},
-       {}},
-      // Execution works with plans, whoever made them.
-      {"core/execution/",
-       {"core/reservation/", "core/sipp/", "core/prioritized/", "core/lns/", "core/bounds/", "core/replan/"},
-       {}},
+      // What follows from a plan, and its execution, whoever made it.
+      {"core/advance/", planning, {}},
+      {"core/execution/", planning, {}},
       // The checker is independent: it shares no collision test with the search, and reads the request
       // itself:
       // a wrong reading that it shared would be found right.
+      {"core/verify/", planning, {}},
       {"core/verify/",
-       {"core/advance/", "core/commitments/", "core/compile/", "core/reservation/", "core/sipp/",
-        "core/prioritized/", "core/lns/", "core/bounds/", "core/replan/", "core/execution/",
-        "core/geometry/disk_motion.h", "core/geometry/motion_tree.h", "core/model/body.h",
-        "core/model/itinerary.h", "core/model/loads.h", "core/model/served.h"},
+       {"core/advance/", "core/compile/", "core/execution/", "core/geometry/disk_motion.h",
+        "core/geometry/motion_tree.h", "core/model/body.h", "core/model/itinerary.h", "core/model/loads.h",
+        "core/model/served.h"},
        {}},
   };
   return all;
@@ -250,8 +247,8 @@ bool makes_a_stop_condition(string_view path, const std::string& code) {
 /// Whether a file that has to work with what was compiled reads robots as they were received.
 bool reads_robots(string_view path, const std::string& code) {
   const auto is_of = [&](string_view folder) { return path.starts_with(folder); };
-  return std::any_of(kWithoutRobots.begin(), kWithoutRobots.end(), is_of) &&
-         std::find(kReadRobots.begin(), kReadRobots.end(), path) == kReadRobots.end() && uses(code, "Robot");
+  return std::any_of(kWithoutRobots.begin(), kWithoutRobots.end(), is_of) && path != kReadsRobots &&
+         uses(code, "Robot");
 }
 
 /// The folder below a layer that a file is in, such as "core/map"; the layer, if the file lies loose.

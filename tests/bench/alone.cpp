@@ -7,7 +7,7 @@
 
 #include "api/request/parse_request.h"
 #include "core/compile/instance.h"
-#include "core/prioritized/plan_state.h"
+#include "core/fleet/plan_state.h"
 #include "tests/bench/median.h"
 #include "tests/support/unbounded_work.h"
 

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "core/map/occupancy_grid.h"
+#include "core/plan/kept_plans.h"
 #include "core/plan/planner.h"
-#include "core/replan/kept_plans.h"
 #include "tests/support/expect_replanned.h"
 #include "tests/support/moving_fleet.h"
 #include "tests/support/summary.h"

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "core/geometry/tolerance.h"
+#include "core/plan/kept_plans.h"
 #include "core/plan/planner.h"
-#include "core/replan/kept_plans.h"
 #include "core/verify/verify.h"
 #include "tests/support/expect_safe.h"
 

@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
+#include "core/fleet/fleet_reservations.h"
 #include "core/map/occupancy_grid.h"
 #include "core/model/plan.h"
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"
-#include "core/prioritized/collect_plan.h"
-#include "core/prioritized/fleet_reservations.h"
+#include "core/plan/collect_plan.h"
 #include "core/verify/verify.h"
 #include "tests/support/plain_check.h"
 #include "tests/support/summary.h"

@@ -11,9 +11,9 @@
 
 #include "api/json/json_reader.h"
 #include "api/request/parse_body.h"
+#include "core/explain/nearest_places.h"
 #include "core/map/occupancy_grid.h"
 #include "core/map/static_map.h"
-#include "core/model/nearest_pose.h"
 #include "core/model/problem.h"
 #include "core/model/ways_out.h"
 #include "core/runtime/stop_condition.h"

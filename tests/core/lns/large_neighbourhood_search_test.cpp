@@ -7,8 +7,8 @@
 #include <cmath>
 #include <utility>
 
-#include "core/prioritized/prioritized_planning.h"
-#include "core/prioritized/triage.h"
+#include "core/explain/triage.h"
+#include "core/moves/prioritized_planning.h"
 #include "tests/core/support/planning.h"
 #include "tests/support/random_problem.h"
 #include "tests/support/step_limit.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/model/objective_share.h"
-#include "core/prioritized/collect_plan.h"
+#include "core/plan/collect_plan.h"
 #include "tests/core/support/planning.h"
 #include "tests/support/summary.h"
 

@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/commitments/unavoidable_collisions.h"
+#include "core/explain/unavoidable_collisions.h"
 #include "core/model/plan.h"
 #include "core/plan/planner.h"
 #include "core/verify/verify.h"

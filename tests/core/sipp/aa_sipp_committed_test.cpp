@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/prioritized/collect_plan.h"
+#include "core/plan/collect_plan.h"
 #include "core/sipp/aa_sipp.h"
 #include "tests/core/support/planning.h"
 

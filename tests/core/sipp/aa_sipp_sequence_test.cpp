@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/model/itinerary.h"
+#include "core/plan/collect_plan.h"
 #include "core/plan/planner.h"
-#include "core/prioritized/collect_plan.h"
 #include "core/sipp/aa_sipp.h"
 #include "tests/core/support/planning.h"
 #include "tests/support/expect_bounds.h"

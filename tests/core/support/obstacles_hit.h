@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/commitments/fixed_reservations.h"
 #include "core/geometry/disk_motion.h"
 #include "core/geometry/tolerance.h"
+#include "core/reservation/fixed_reservations.h"
 
 namespace fleetplan::core {
 

@@ -8,8 +8,8 @@
 
 #include "core/bounds/lower_bound.h"
 #include "core/compile/instance.h"
-#include "core/prioritized/plan_state.h"
-#include "core/prioritized/progress_report.h"
+#include "core/fleet/plan_state.h"
+#include "core/fleet/progress_report.h"
 #include "core/runtime/executor.h"
 #include "core/runtime/random.h"
 #include "core/runtime/stop_condition.h"

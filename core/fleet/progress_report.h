@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+
+#include "core/fleet/fleet_reservations.h"
+#include "core/model/progress.h"
+
+namespace fleetplan::core {
+
+/// Reports the progress of planning to an observer, if there is one.
+class ProgressReport {
+ public:
+  /// Reports the robots that follow a trajectory as planned. `observer` may be null.
+  ProgressReport(const FleetReservations& reservations, Observer* observer)
+      : reservations_(reservations), observer_(observer) {
+    for (std::size_t robot = 0; robot < reservations.instance().size(); ++robot) {
+      if (reservations.instance().itinerary(robot).is_parked()) ++parked_;
+    }
+  }
+
+  /// Reports that another attempt at planning all robots begins.
+  void next_attempt() {
+    ++progress_.attempts;
+    update();
+  }
+  /// Reports the number of robots with a trajectory if it has changed.
+  void update() {
+    if (observer_ != nullptr) notify();
+  }
+  /// Reports that there is a plan, or a better one.
+  void plan_found(const Objectives& best) {
+    progress_.best = best;
+    update();
+  }
+
+  Observer* observer() const { return observer_; }
+
+ private:
+  void notify() {
+    progress_.planned = parked_ + reservations_.planned_count();
+    observer_->progressed(progress_);
+  }
+
+  const FleetReservations& reservations_;
+  Observer* observer_;
+  std::size_t parked_ = 0;
+  Progress progress_;
+};
+
+}  // namespace fleetplan::core

@@ -1,0 +1,29 @@
+#pragma once
+
+// Room for two: where two robots meet, each of them moves aside.
+
+#include <cstddef>
+#include <vector>
+
+#include "core/fleet/plan_state.h"
+#include "core/fleet/progress_report.h"
+#include "core/runtime/stop_condition.h"
+
+namespace fleetplan::core {
+
+/// Plans a few robots of which each is in the way of another one, whatever their order: in a corridor,
+/// whoever is planned first takes the middle. Where the ways of two robots alone on the map meet, or along
+/// the way near there, each of them passes through a place at another side of it. If the second one has no
+/// way then, the first one waits in its place until the second one has passed. The other robots are planned
+/// after both. At last, each robot is planned again as long as it costs less.
+///
+/// Only robots with one load move aside. Returns whether all of `robots` follow a trajectory; if not, no
+/// reservation has changed. The effort of each search is limited.
+bool make_room(PlanState& state, const std::vector<std::size_t>& robots, const StopCondition& stop,
+               ProgressReport& progress);
+
+/// Plans each of these robots, which follow trajectories, again as long as that costs less; a few times at
+/// most.
+void replan_for_less(PlanState& state, const std::vector<std::size_t>& robots, const StopCondition& stop);
+
+}  // namespace fleetplan::core

@@ -1,0 +1,280 @@
+#include "core/moves/prioritized_planning.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "core/moves/expected_arrivals.h"
+#include "core/moves/lattice_steps.h"
+#include "core/moves/making_room.h"
+#include "core/moves/orderings.h"
+#include "core/moves/repair.h"
+#include "core/moves/safe_plan.h"
+#include "core/moves/yielding.h"
+#include "core/runtime/budget.h"
+
+namespace fleetplan::core {
+namespace {
+
+/// The most robots for which all orders are tried. Unlike repair, that ends where there is no solution, and
+/// proves it for prioritized planning.
+constexpr std::size_t kFewRobots = 4;
+/// Attempts in random orders, each with repairs, if no deadline ends them.
+constexpr int kMaxOrdersWithoutDeadline = 10;
+/// The failed attempts after which robots of different sizes are planned again in that order, if they were
+/// planned in another one.
+constexpr std::int64_t kMaxFailures = 15;
+
+/// Plans every robot once, in the given order.
+OrderingResult plan_each_once(PlanState& state, const PriorityOrder& order, const StopCondition& stop,
+                              ProgressReport& progress) {
+  FleetReservations& reservations = state.reservations();
+  progress.next_attempt();
+  const double reserved = state.instance().options().start_safe_interval;
+  OrderingResult result;
+  for (const std::size_t robot : order) reservations.reserve_place(robot, reserved);
+  for (const std::size_t robot : order) {
+    SearchResult search;
+    reservations.remove(robot);
+    if (!stop.met()) search = state.plan(robot, {}, stop);
+    if (search.trajectory) {
+      reservations.follow(robot, std::move(*search.trajectory));
+      progress.update();
+    } else {
+      reservations.reserve_place(robot, reserved);
+      result.unsolved.push_back(robot);
+    }
+  }
+  result.cut_off = stop.met();
+  return result;
+}
+
+bool differ_in_size(const Instance& instance, const PriorityOrder& order) {
+  return std::any_of(order.begin(), order.end(), [&](std::size_t robot) {
+    return instance.body(robot).pair_radius != instance.body(order.front()).pair_radius;
+  });
+}
+
+PrioritizedResult all_unplanned(const std::vector<std::size_t>& movers) {
+  PrioritizedResult result;
+  result.cut_off = true;
+  for (const std::size_t robot : movers) {
+    result.unplanned.push_back({robot,
+                                Unplanned::Reason::budget_exhausted,
+                                "The time budget ended before planning could begin.",
+                                {}});
+  }
+  return result;
+}
+
+class PrioritizedPlanning {
+ public:
+  PrioritizedPlanning(PlanState& state, const std::vector<std::size_t>& movers, Random& random,
+                      const PlanningTime& time, ProgressReport& progress)
+      : state_(state),
+        random_(random),
+        time_(time),
+        progress_(progress),
+        order_(initial_order(state.instance(), movers, random)),
+        stop_(time.first_part) {
+    if (is_by_arrival()) order_by_arrival();
+    const bool may_stop = state.instance().options().horizon && !order_.empty();
+    if (may_stop && state.instance().itinerary(order_.front()).goal_age > 0.0) {
+      state.set_whole_way_of(order_.front());
+    }
+  }
+
+  PrioritizedResult run() {
+    OrderingResult ordering = plan_in_orders();
+    result_.attempts += ordering.attempts;
+    result_.cut_off =
+        result_.cut_off || ordering.cut_off || best_.has_value() || ordering.steps == StepsOutcome::cut_off;
+    if (solved(ordering)) return std::move(result_);
+    if (may_need_room(ordering) && give_way(ordering.hopeless, ordering.steps.has_value())) {
+      ordering.unsolved.clear();
+      ordering.given_up = ordering.hopeless;
+      if (solved(ordering)) return std::move(result_);
+    }
+    const bool may_try_again = !ordering.cut_off && other_orders_may_help(ordering);
+    if (may_try_again || !best_ || !ordering.cut_off) {
+      keep_if_better(ordering.unsolved, ordering.given_up, may_try_again ? Effort::brief : Effort::full,
+                     time_.all);
+    }
+    if (may_try_again) try_other_orders(ordering.hopeless);
+    return_to(state_.reservations(), *best_, time_.all);
+    PartialPlan partial = explain(state_, best_->plan, time_.all);
+    result_.cut_off = result_.cut_off || partial.cut_off;
+    result_.unplanned = std::move(partial.unplanned);
+    return std::move(result_);
+  }
+
+ private:
+  static bool solved(const OrderingResult& ordering) {
+    return ordering.unsolved.empty() && ordering.given_up.empty();
+  }
+
+  OrderingResult plan_in_orders() {
+    const auto reordering = state_.instance().options().reordering;
+    if (reordering == PlanOptions::Reordering::none) return plan_each_once(state_, order_, stop_, progress_);
+    const OnStop keep_plan = [this](const auto& unsolved, const auto& given_up) {
+      return keep_safe_plan(unsolved, given_up);
+    };
+    if (restarts()) {
+      return plan_with_restarts(state_, order_, random_, stop_, progress_, keep_plan);
+    }
+    if (!is_by_arrival() && !state_.instance().options().horizon &&
+        differ_in_size(state_.instance(), order_)) {
+      if (auto result = repair_unless(kMaxFailures, state_, order_, random_, stop_, progress_, keep_plan)) {
+        return std::move(*result);
+      }
+      result_.attempts += kMaxFailures;
+      order_by_arrival();
+    }
+    return repair_all(state_, order_, random_, stop_, progress_, keep_plan);
+  }
+
+  /// Whether robots come in the order of their expected arrivals from the beginning.
+  bool is_by_arrival() const {
+    const PlanOptions& options = state_.instance().options();
+    return options.priority == PlanOptions::Priority::shortest_first && !options.horizon;
+  }
+
+  void order_by_arrival() {
+    ExpectedOrder expected =
+        order_by_expected_arrival(state_, order_, after_share(stop_, budget::kShareOfOrder));
+    order_ = std::move(expected.robots);
+    result_.cut_off = result_.cut_off || expected.cut_off;
+  }
+
+  /// Keeps a safe plan at the end of the first part of the time, and returns to where planning was. Returns
+  /// whether planning goes on. It does not if all robots that are not given up can move in steps.
+  bool keep_safe_plan(const std::vector<std::size_t>& unsolved, const std::vector<std::size_t>& given_up) {
+    if (best_ || time_.all.met()) return false;
+    if (moves_in_steps(given_up)) return false;
+    const FleetReservations::Snapshot before = state_.reservations().snapshot();
+    keep_if_better(unsolved, given_up, Effort::brief, time_.keeping);
+    if (best_->plan.staying.empty()) return false;
+    state_.reservations().restore(before);
+    stop_ = time_.all;
+    return !stop_.met();
+  }
+
+  /// Returns whether it keeps a plan in which all robots but those that are given up move in steps.
+  bool moves_in_steps(const std::vector<std::size_t>& given_up) {
+    if (!steps_succeed(given_up, time_.keeping)) return false;
+    keep_if_better({}, given_up, Effort::brief, time_.keeping);
+    return true;
+  }
+
+  bool steps_succeed(const std::vector<std::size_t>& staying, const StopCondition& stop) {
+    const StepsOutcome outcome =
+        follow_steps(state_.reservations(), order_, staying, random_, stop, progress_);
+    result_.cut_off = result_.cut_off || outcome == StepsOutcome::cut_off;
+    if (outcome == StepsOutcome::followed) ++result_.attempts;
+    return outcome == StepsOutcome::followed;
+  }
+
+  void keep_if_better(const std::vector<std::size_t>& unsolved, const std::vector<std::size_t>& given_up,
+                      Effort effort, const StopCondition& stop) {
+    SafePlan plan = make_safe(state_, unsolved, given_up, effort, stop, progress_);
+    if (best_ && best_->plan.staying.size() <= plan.staying.size()) return;
+    best_ = PlanSnapshot{std::move(plan), state_.reservations().snapshot()};
+  }
+
+  bool has_few_robots() const { return order_.size() <= kFewRobots; }
+  /// Whether other orders are tried from the beginning. Robots that yield make way for others in no order:
+  /// they are asked to in repairs.
+  bool restarts() const {
+    const auto reordering = state_.instance().options().reordering;
+    return !any_yields(state_.instance()) &&
+           (reordering == PlanOptions::Reordering::random || has_few_robots());
+  }
+
+  /// Whether robots may have a plan although repair, or all orders of few robots, have failed.
+  bool may_need_room(const OrderingResult& ordering) const {
+    return state_.instance().options().reordering != PlanOptions::Reordering::none && !ordering.cut_off &&
+           ordering.hopeless.size() < ordering.unsolved.size() + ordering.given_up.size();
+  }
+
+  /// Plans the robots that are not hopeless in steps or, few of them, so that they make room for each other.
+  /// Returns whether they follow the better plan of the two; if there is none, no reservation has changed.
+  bool give_way(const std::vector<std::size_t>& hopeless, bool tried_steps) {
+    FleetReservations& reservations = state_.reservations();
+    std::vector<std::size_t> robots = order_;
+    std::erase_if(robots, [&](std::size_t robot) {
+      return std::find(hopeless.begin(), hopeless.end(), robot) != hopeless.end();
+    });
+    double least = kForever;
+    std::optional<FleetReservations::Snapshot> best;
+    const auto keep_if_better = [&] {
+      double cost = 0.0;
+      for (const std::size_t robot : robots) cost += reservations.trajectory(robot)->cost;
+      if (cost < least) best = reservations.snapshot();
+      least = std::min(least, cost);
+    };
+    if (!tried_steps && steps_succeed(hopeless, stop_)) {
+      if (has_few_robots()) replan_for_less(state_, robots, stop_);
+      keep_if_better();
+    }
+    if (has_few_robots() && make_room(state_, robots, stop_, progress_)) {
+      ++result_.attempts;
+      keep_if_better();
+    }
+    result_.cut_off = result_.cut_off || stop_.met();
+    if (best) reservations.restore(std::move(*best));
+    return best.has_value();
+  }
+
+  bool other_orders_may_help(const OrderingResult& ordering) const {
+    const auto reordering = state_.instance().options().reordering;
+    return reordering == PlanOptions::Reordering::raise_failed &&
+           (!has_few_robots() || any_yields(state_.instance())) &&
+           ordering.hopeless.size() < ordering.given_up.size();
+  }
+
+  /// Plans in random orders as long as a robot that is not hopeless stays.
+  void try_other_orders(std::vector<std::size_t> hopeless) {
+    const bool has_deadline = time_.all.deadline() != StopCondition::Clock::time_point::max();
+    PriorityOrder order = order_;
+    for (int k = 0; has_deadline || k < kMaxOrdersWithoutDeadline; ++k) {
+      std::erase_if(order, [&](std::size_t robot) {
+        return std::find(hopeless.begin(), hopeless.end(), robot) != hopeless.end();
+      });
+      if (best_->plan.staying.size() <= hopeless.size()) return;
+      if (time_.all.met()) break;
+      for (const std::size_t robot : order) state_.reservations().remove(robot);
+      for (const std::size_t robot : hopeless) state_.reservations().stay_in_place(robot);
+      random_.shuffle(order);
+      OrderingResult ordering = repair_all(state_, order, random_, time_.all, progress_);
+      result_.attempts += ordering.attempts;
+      ordering.given_up.insert(ordering.given_up.end(), hopeless.begin(), hopeless.end());
+      hopeless.insert(hopeless.end(), ordering.hopeless.begin(), ordering.hopeless.end());
+      keep_if_better(ordering.unsolved, ordering.given_up, Effort::brief, time_.all);
+    }
+    result_.cut_off = result_.cut_off || has_deadline;
+  }
+
+  PlanState& state_;
+  Random& random_;
+  const PlanningTime& time_;
+  ProgressReport& progress_;
+  PriorityOrder order_;
+  StopCondition stop_;  // ends the first attempt
+  std::optional<PlanSnapshot> best_;
+  PrioritizedResult result_;
+};
+
+}  // namespace
+
+PlanningTime PlanningTime::until(const StopCondition& stop) {
+  return {after_share(stop, budget::kShareBeforeSafePlan), after_share(stop, budget::kShareWithSafePlan),
+          stop};
+}
+
+PrioritizedResult plan_prioritized(PlanState& state, const std::vector<std::size_t>& movers, Random& random,
+                                   const PlanningTime& time, ProgressReport& progress) {
+  if (time.all.met()) return all_unplanned(movers);
+  return PrioritizedPlanning(state, movers, random, time, progress).run();
+}
+
+}  // namespace fleetplan::core

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "core/moves/lacam.h"
+#include "core/runtime/stop_condition.h"
+
+namespace fleetplan::core {
+
+/// Whether two robots would have to pass each other on a line of vertices that has no branch. Robots on such
+/// a line keep their order, so there is no plan in steps then. False if `stop` is met first.
+bool have_to_pass_on_a_line(const StepProblem& problem, const StopCondition& stop);
+
+}  // namespace fleetplan::core
