@@ -95,6 +95,7 @@ void set_pose(core::Goal& made, const Goal& goal, const Frame& frame) {
     theta = pose.theta;
     made.position = frame.to_core(pose.x, pose.y);
   }
+  if (goal.tolerance > 0.0 && goal.place) made.position = frame.to_core(goal.place->x, goal.place->y);
   if (theta) made.theta = core::normalize_angle(*theta);
 }
 
@@ -131,10 +132,28 @@ core::Robot robot_of(const Robot& robot, const Frame& frame) {
   return made;
 }
 
+namespace {
+
+core::OpenGoal goal_with_tolerance(const Goal& goal, std::size_t number, const Frame& frame) {
+  core::OpenGoal made;
+  made.tolerance = goal.tolerance;
+  made.own = frame.to_core(goal.x, goal.y);
+  core::Robot alone;
+  alone.goal = core::Goal{made.own, goal.theta};
+  if (alone.goal->theta) alone.goal->theta = core::normalize_angle(*goal.theta);
+  made.poses = {{made.own, alone.goal->theta}};
+  made.is_told = goal.place && core::choose_place(alone, made, frame.to_core(goal.place->x, goal.place->y));
+  made.goal = number;
+  return made;
+}
+
+}  // namespace
+
 std::vector<core::OpenGoal> open_goals_of(const Robot& robot, const Frame& frame) {
   std::vector<core::OpenGoal> open;
   for (std::size_t k = 0; k < robot.goals.size(); ++k) {
     const Goal& goal = robot.goals[k];
+    if (goal.tolerance > 0.0 && goal.any_of.empty()) open.push_back(goal_with_tolerance(goal, k, frame));
     if (goal.any_of.empty()) continue;
     core::OpenGoal& made = open.emplace_back();
     made.goal = k;
@@ -219,10 +238,17 @@ std::vector<core::UnavoidableCollision> unavoidable_of(const std::vector<Unavoid
 
 namespace {
 
-std::optional<std::size_t> choice_of(const std::vector<core::OpenGoal>& open, std::size_t goal) {
-  const auto found =
-      std::find_if(open.begin(), open.end(), [&](const core::OpenGoal& one) { return one.goal == goal; });
-  return found != open.end() ? std::optional(found->choice().number) : std::nullopt;
+/// Tells where an open goal is served.
+void tell_choice(const std::vector<core::OpenGoal>& open, const Frame& frame, Visit& visit) {
+  const auto found = std::find_if(open.begin(), open.end(),
+                                  [&](const core::OpenGoal& one) { return one.goal == visit.goal; });
+  if (found == open.end()) return;
+  if (found->tolerance == 0.0) {
+    visit.choice = found->choice().number;
+    return;
+  }
+  const Pose world = frame.from_core(core::Pose{found->choice().position, 0.0});
+  visit.place = Position{world.x, world.y};
 }
 
 /// The places where idle robots end are no goals of the user's.
@@ -244,8 +270,11 @@ RobotPlan plan_of(const core::RobotPlan& plan, std::size_t goals, const std::vec
   for (const core::Visit& visit : plan.visits) {
     if (visit.goal >= goals) continue;
     const bool leaves = visit.t_leave < core::kForever;
-    made.visits.push_back({visit.goal, visit.t_arrive, leaves ? std::optional(visit.t_leave) : std::nullopt,
-                           choice_of(open, visit.goal)});
+    Visit& told = made.visits.emplace_back();
+    told.goal = visit.goal;
+    told.t_arrive = visit.t_arrive;
+    if (leaves) told.t_leave = visit.t_leave;
+    tell_choice(open, frame, told);
   }
   return made;
 }

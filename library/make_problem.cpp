@@ -43,6 +43,7 @@ constexpr Range kAngularSpeed{kLeastAngularSpeed, kMostAngularSpeed, " rad/s"};
 constexpr Range kAcceleration{kLeastAcceleration, kMostAcceleration, " per second squared"};
 constexpr Range kProfileSpeed{0.0, kMostAngularSpeed, ""};
 constexpr Range kDuration{0.0, kLongestTime, " s"};
+constexpr Range kGoalTolerance{0.0, core::kMaxTolerance, " m"};
 constexpr Range kAngle{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max(), " rad"};
 
 /// Returns the shortest text of a number.
@@ -237,10 +238,24 @@ void check_any_of(const Goal& goal, const std::string& place, FaultList& faults)
   }
 }
 
+void check_tolerance(const Goal& goal, const std::string& place, FaultList& faults) {
+  faults.check(goal.tolerance, kGoalTolerance, place + ".tolerance");
+  if (goal.tolerance > 0.0 && !goal.any_of.empty()) {
+    faults.add(place + ".tolerance", "The goal has any_of, whose poses are all that it may be served at.");
+  }
+  if (!goal.place) return;
+  check_position(goal.place->x, goal.place->y, place + ".place", faults);
+  const core::Position away(goal.place->x - goal.x, goal.place->y - goal.y);
+  if (!(away.norm() <= goal.tolerance + core::kContactTolerance)) {
+    faults.add(place + ".place", "The place is farther from the goal than its tolerance.");
+  }
+}
+
 void check_goal(const Goal& goal, const std::string& place, FaultList& faults) {
   check_position(goal.x, goal.y, place, faults);
   if (goal.theta) faults.check(*goal.theta, kAngle, place + ".theta");
   check_any_of(goal, place, faults);
+  check_tolerance(goal, place, faults);
   faults.check(goal.service, kDuration, place + ".service");
   faults.check(goal.not_before, kDuration, place + ".not_before");
   const auto check = [&](const std::optional<double>& number, const Range& range, const char* name) {

@@ -71,18 +71,28 @@ std::vector<core::RobotPlan> core_plans(std::span<const RobotPlan> plans, const 
   return made;
 }
 
+/// Chooses what a visit names. Returns whether the goal has it.
+bool choose_for(const Visit& visit, const library::Frame& frame, core::Robot& robot, core::OpenGoal& goal) {
+  if (visit.place) {
+    return goal.tolerance > 0.0 && !visit.choice &&
+           core::choose_place(robot, goal, frame.to_core(visit.place->x, visit.place->y));
+  }
+  if (goal.tolerance > 0.0 || *visit.choice >= goal.poses.size()) return false;
+  core::choose(robot, goal, *visit.choice);
+  return true;
+}
+
 /// Settles what is open by the visits of the plan or, if they say nothing of it, by its actions.
-void settle_choices(const RobotPlan& plan, std::span<const core::Action> actions, core::Robot& robot,
-                    std::vector<core::OpenGoal>& open, const core::StopCondition& stop) {
+void settle_choices(const RobotPlan& plan, std::span<const core::Action> actions, const library::Frame& frame,
+                    core::Robot& robot, std::vector<core::OpenGoal>& open, const core::StopCondition& stop) {
   bool is_told = false;
   for (const Visit& visit : plan.visits) {
-    if (!visit.choice) continue;
+    if (!visit.choice && !visit.place) continue;
     const auto goal = std::find_if(open.begin(), open.end(),
                                    [&](const core::OpenGoal& one) { return one.goal == visit.goal; });
-    if (goal == open.end() || *visit.choice >= goal->poses.size()) {
-      throw std::invalid_argument("a visit names a pose that its goal does not have");
+    if (goal == open.end() || !choose_for(visit, frame, robot, *goal)) {
+      throw std::invalid_argument("a visit names a pose or a place that its goal does not have");
     }
-    core::choose(robot, *goal, *visit.choice);
     goal->is_settled = is_told = true;
   }
   if (is_told) return core::choose_unserved(robot, open, actions, stop);
@@ -94,13 +104,13 @@ void settle_choices(const RobotPlan& plan, std::span<const core::Action> actions
 /// Gives goals that have several poses those at which the plans serve them, or committed actions of robots
 /// without a plan.
 void settle_choices(std::span<const RobotPlan> plans, const std::vector<core::RobotPlan>& made,
-                    library::ReadFleet& fleet, const core::StopCondition& stop) {
+                    const library::Frame& frame, library::ReadFleet& fleet, const core::StopCondition& stop) {
   std::vector<bool> is_planned(fleet.robots.size(), false);
   for (std::size_t k = 0; k < plans.size(); ++k) {
     const std::size_t robot = plans[k].robot;
     if (robot >= fleet.robots.size()) continue;  // a fault, see core::verify
     is_planned[robot] = true;
-    settle_choices(plans[k], made[k].actions, fleet.robots[robot], fleet.open[robot], stop);
+    settle_choices(plans[k], made[k].actions, frame, fleet.robots[robot], fleet.open[robot], stop);
   }
   for (std::size_t robot = 0; robot < fleet.robots.size(); ++robot) {
     if (is_planned[robot]) continue;
@@ -157,7 +167,7 @@ Verification verify(const Problem& problem, std::span<const RobotPlan> plans, co
   const core::OccupancyGrid grid = library::grid_of(problem.map);
   const core::StopCondition stop(end_of(rules.time_budget, Clock::now()), rules.stop);
   const std::vector<core::RobotPlan> made = core_plans(plans, library::Frame(problem.map));
-  settle_choices(plans, made, fleet, stop);
+  settle_choices(plans, made, library::Frame(problem.map), fleet, stop);
   for (const std::size_t robot : rules.invalid) {
     if (robot >= fleet.robots.size()) throw std::invalid_argument("there is no such invalid robot");
     fleet.robots[robot].invalid = true;

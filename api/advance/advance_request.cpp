@@ -282,17 +282,25 @@ void write_start(JsonWriter& json, const core::Robot& robot, const WorldFrame& f
   json.end_object();
 }
 
-/// Without a service, nothing is left of its actions. `is_open`: it has all poses that were given. `choice`:
-/// the one of them at which the actions of the robot serve it.
+/// Without a service, nothing is left of its actions. `open`: all that was given is still possible; null if
+/// not. `is_told`: the actions of the robot serve it at the chosen pose.
 void write_goal(JsonWriter& json, const core::Goal& goal, const WorldFrame& frame, const GoalTexts& texts,
-                bool is_open, std::optional<std::size_t> choice) {
+                const core::OpenGoal* open, bool is_told) {
   json.begin_object();
-  if (is_open) {
+  if (open != nullptr && open->tolerance == 0.0) {
     json.key("any_of").json(texts.any_of);
-    if (choice) json.member("choice", *choice);
+    if (is_told) json.member("choice", open->choice().number);
   } else {
-    write_position(json, goal.position, frame);
+    write_position(json, open != nullptr ? open->own : goal.position, frame);
     if (goal.theta) json.member("theta", *goal.theta);
+  }
+  if (open != nullptr && open->tolerance > 0.0) {
+    json.member("tolerance", open->tolerance);
+    if (is_told && open->choice().position != open->own) {
+      json.key("place").begin_object();
+      write_position(json, open->choice().position, frame);
+      json.end_object();
+    }
   }
   if (goal.service > 0.0) json.member("service", goal.service);
   if (goal.not_before > 0.0) json.member("not_before", goal.not_before);
@@ -345,23 +353,20 @@ class GoalsToRepeat {
   /// Whether the robot has got other goals.
   bool are_other() const { return are_other_; }
 
-  /// Whether all poses of a goal are still possible. A robot that rests in the pose that its plan has chosen
-  /// stays with that, unless it is done and may come back to another one; what it passes is past.
-  bool is_open(std::size_t goal) const {
-    if (texts_of(goal).any_of.empty() || is_passed(goal)) return false;
-    const core::Goal& next = left_.goal_at(goal);
+  /// The goal, if all of its poses are still possible; otherwise null. A robot that rests in the pose that
+  /// its plan has chosen stays with that, unless it is done and may come back to another one; what it passes
+  /// is past.
+  const core::OpenGoal* open(std::size_t goal) const {
     const core::OpenGoal* open = open_goal(goal);
-    const bool is_settled = open != nullptr && open->is_settled;
-    if (goal > 0 || !is_settled || !core::is_in_pose(left_.start, next)) return true;
-    return repeated_.returns && left_.own_goal_count() == 1 && next.service == 0.0;
+    if (open == nullptr || goal > 0 || !open->is_settled) return open;
+    const core::Goal& next = left_.goal_at(goal);
+    if (!core::is_in_pose(left_.start, next)) return open;
+    const bool comes_back = repeated_.returns && left_.own_goal_count() == 1 && next.service == 0.0;
+    return comes_back ? open : nullptr;
   }
 
-  /// The number of the only pose at which the actions of the robot may serve a goal that is open.
-  std::optional<std::size_t> choice(std::size_t goal) const {
-    const core::OpenGoal* open = open_goal(goal);
-    if (open == nullptr || (left_.committed.empty() && !left_.previous)) return std::nullopt;
-    return open->choice().number;
-  }
+  /// Whether the actions of the robot may serve its goals at the chosen poses only.
+  bool are_told() const { return !left_.committed.empty() || left_.previous; }
 
   const GoalTexts& texts_of(std::size_t goal) const {
     static const GoalTexts none;
@@ -394,8 +399,7 @@ class GoalsToRepeat {
 void write_goals(JsonWriter& json, const core::Robot& robot, const WorldFrame& frame,
                  const GoalsToRepeat& goals, bool as_one) {
   const auto write = [&](std::size_t goal) {
-    write_goal(json, robot.goal_at(goal), frame, goals.texts_of(goal), goals.is_open(goal),
-               goals.choice(goal));
+    write_goal(json, robot.goal_at(goal), frame, goals.texts_of(goal), goals.open(goal), goals.are_told());
   };
   const std::size_t count = robot.own_goal_count();
   if (count == 0) return;

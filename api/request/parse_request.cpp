@@ -229,14 +229,14 @@ std::optional<MadeProblem> make_problem(Fleet& fleet, const JsonReader& root, co
   return ProblemMaker(fleet, root, work, maps).run();
 }
 
-/// Returns the choices of a robot, see ReceivedRobot.
-std::vector<std::optional<std::size_t>> choices_of(const std::vector<core::OpenGoal>& open) {
-  std::vector<std::optional<std::size_t>> choices;
-  for (const core::OpenGoal& goal : open) {
-    choices.resize(goal.goal);
-    choices.emplace_back(goal.choice().number);
+void tell_choice(const core::OpenGoal& goal, ReceivedRobot& received) {
+  if (goal.tolerance > 0.0) {
+    received.places.resize(goal.goal + 1);
+    received.places.back() = goal.choice().position;
+  } else {
+    received.choices.resize(goal.goal + 1);
+    received.choices.back() = goal.choice().number;
   }
-  return choices;
 }
 
 /// Returns what answers repeat of the robots. `errors` are those of each robot, or none.
@@ -284,7 +284,9 @@ std::optional<PlanRequest> parse_plan_request(const JsonReader& request, const L
 void tell_choices(const core::OpenGoals& open, std::vector<ReceivedRobot>& received) {
   // A request with robots that have no place is refused; there are goals of the others only.
   if (open.size() != received.size()) return;
-  for (std::size_t k = 0; k < received.size(); ++k) received[k].choices = choices_of(open[k]);
+  for (std::size_t k = 0; k < received.size(); ++k) {
+    for (const core::OpenGoal& goal : open[k]) tell_choice(goal, received[k]);
+  }
 }
 
 Result<PlanRequest, RequestError> parse_request(std::string_view body, const Limits& limits, core::Work& work,

@@ -211,6 +211,9 @@ struct ReceivedRobot {
   /// By goal: the number of the pose of `any_of` that the plan goes to; none for a goal without. Shorter if
   /// the last ones have none.
   std::vector<std::optional<std::size_t>> choices = {};
+  /// By goal: where the plan serves it, in the map frame; none for a goal without tolerance. Shorter if the
+  /// last ones have none.
+  std::vector<std::optional<core::Position>> places = {};
 };
 
 }  // namespace fleetplan::api

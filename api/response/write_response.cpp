@@ -180,6 +180,22 @@ std::optional<std::size_t> choice_of(const ReceivedRobot& received, std::size_t 
   return goal < received.choices.size() ? received.choices[goal] : std::nullopt;
 }
 
+/// Writes where a goal is served that has several poses or a tolerance; null if it is not.
+void write_where(JsonWriter& json, std::size_t goal, const ReceivedRobot& received,
+                 const core::Position& origin, bool is_served) {
+  if (const auto choice = choice_of(received, goal)) {
+    is_served ? json.member("choice", *choice) : json.key("choice").json("null");
+  }
+  if (goal >= received.places.size() || !received.places[goal]) return;
+  json.key("place");
+  if (!is_served) {
+    json.json("null");
+    return;
+  }
+  const core::Position world = *received.places[goal] + origin;
+  json.begin_object().member("x", world.x()).member("y", world.y()).end_object();
+}
+
 /// Ends the entry of a goal with its actions and metadata, if it has any. `texts`: of the goals by their
 /// number, or none.
 void end_visit(JsonWriter& json, std::size_t goal, const std::vector<GoalTexts>& texts) {
@@ -197,9 +213,7 @@ void write_goals_put_off(JsonWriter& json, const core::PostponedGoals& goals, co
     begin_visit_without_times(json, goals.first + k);
     json.member("reason", k == 0 ? "zone_closed" : "goal_before");
     if (k == 0) json.member("zone", verified.problem.zones()[goals.zone].id);
-    if (const auto choice = choice_of(received, goals.first + k)) {
-      k == 0 ? json.member("choice", *choice) : json.key("choice").json("null");
-    }
+    write_where(json, goals.first + k, received, verified.origin, k == 0);
     end_visit(json, goals.first + k, received.goal_texts);
   }
 }
@@ -208,7 +222,8 @@ void write_goals_put_off(JsonWriter& json, const core::PostponedGoals& goals, co
 /// the request. `put_off`: goals from the first of these on, if there are any, are not visited, so that the
 /// service at the last one before them has an end.
 void write_planned_visits(JsonWriter& json, const core::RobotPlan& plan, const core::Robot& robot,
-                          const core::PostponedGoals* put_off, const ReceivedRobot& received) {
+                          const core::PostponedGoals* put_off, const ReceivedRobot& received,
+                          const core::Position& origin) {
   const std::vector<GoalTexts>& texts = received.goal_texts;
   const std::size_t count = put_off != nullptr ? put_off->first : robot.own_goal_count();
   for (const core::Visit& visit : plan.visits) {
@@ -216,7 +231,7 @@ void write_planned_visits(JsonWriter& json, const core::RobotPlan& plan, const c
     json.begin_object().member("goal", visit.goal).member("t_arrive", visit.t_arrive);
     const bool stays = visit.t_leave == core::kForever;
     json.member("t_leave", stays && put_off != nullptr ? plan.cost : visit.t_leave);  // null at the last goal
-    if (const auto choice = choice_of(received, visit.goal)) json.member("choice", *choice);
+    write_where(json, visit.goal, received, origin, true);
     write_late_by(json, robot.goal_at(visit.goal), visit.t_arrive);
     end_visit(json, visit.goal, texts);
   }
@@ -224,7 +239,7 @@ void write_planned_visits(JsonWriter& json, const core::RobotPlan& plan, const c
     if (visit.goal >= count) continue;
     begin_visit_without_times(json, visit.goal);
     json.member("estimated_t_arrive", visit.t_arrive);  // null without a way
-    if (choice_of(received, visit.goal)) json.key("choice").json("null");
+    write_where(json, visit.goal, received, origin, false);
     write_late_by(json, robot.goal_at(visit.goal), visit.t_arrive);
     end_visit(json, visit.goal, texts);
   }
@@ -238,7 +253,7 @@ void write_visits(JsonWriter& json, const core::RobotPlan& plan, const VerifiedP
   const core::PostponedGoals* put_off =
       leaving != nullptr && leaving->postponed ? &*leaving->postponed : nullptr;
   json.key("visits").begin_array();
-  write_planned_visits(json, plan, verified.problem.robots()[plan.robot], put_off, received);
+  write_planned_visits(json, plan, verified.problem.robots()[plan.robot], put_off, received, verified.origin);
   if (put_off != nullptr) write_goals_put_off(json, *put_off, verified, received);
   json.end_array();
 }

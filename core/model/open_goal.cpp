@@ -1,9 +1,12 @@
 #include "core/model/open_goal.h"
 
 #include <algorithm>
+#include <numbers>
 #include <optional>
 
+#include "core/geometry/elementary_functions.h"
 #include "core/geometry/segment.h"
+#include "core/geometry/tolerance.h"
 #include "core/model/itinerary.h"
 
 namespace fleetplan::core {
@@ -17,7 +20,46 @@ double served_at(const Robot& robot, const OpenGoal& open, std::span<const Actio
   return is_there && (also_last || served.service_done > 0.0) ? served.arrived : kForever;
 }
 
+/// Seconds that places near a goal's pose cost at least more than this, and more for each metre: more than
+/// any way takes, and less than changing its mind costs a robot (pose_choice.cpp).
+constexpr double kBiasOfPlaces = 4e5;
+/// Where places are tried: circles, and places on each.
+constexpr int kCircles = 8;
+constexpr int kDirections = 12;
+
+double bias_at(double distance) { return kBiasOfPlaces * (1.0 + distance); }
+
 }  // namespace
+
+void widen(OpenGoal& open) {
+  open.is_widened = true;
+  const Alternative own = open.poses.front();
+  for (int circle = 1; circle <= kCircles; ++circle) {
+    const double distance = open.tolerance * circle / kCircles;
+    for (int k = 0; k < kDirections; ++k) {
+      Alternative place = own;
+      place.position += distance * unit_vector(2.0 * std::numbers::pi * k / kDirections);
+      place.bias += bias_at(distance);
+      open.poses.push_back(place);
+    }
+  }
+}
+
+bool choose_place(Robot& robot, OpenGoal& open, const Position& place) {
+  const double distance = (place - open.own).norm();
+  if (distance > open.tolerance + kContactTolerance) return false;
+  if (distance <= kContactTolerance) {
+    choose(robot, open, 0);
+    return true;
+  }
+  Alternative pose = open.poses.front();
+  widen(open);
+  pose.position = place;
+  pose.bias += bias_at(distance);
+  open.poses.push_back(pose);
+  choose(robot, open, open.poses.size() - 1);
+  return true;
+}
 
 bool stays_at(const Robot& robot, std::size_t goal) {
   return !robot.yields() && goal + 1 == robot.goal_count();

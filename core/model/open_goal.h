@@ -1,6 +1,6 @@
 #pragma once
 
-// Goals that are served at one of several poses.
+// Goals that are served at one of several poses, or somewhere near their pose.
 
 #include <cstddef>
 #include <optional>
@@ -24,16 +24,34 @@ struct Alternative {
 };
 
 /// A goal of a robot (Robot::goal_at) that is served at one of several poses. The goal itself has the pose
-/// that is chosen.
+/// that is chosen. One with a tolerance has its own pose only, until it is widened.
 struct OpenGoal {
   std::size_t goal = 0;            // number of the goal
   std::vector<Alternative> poses;  // at least one
   std::size_t chosen = 0;          // index in `poses`
   bool is_settled = false;         // what the robot has done or is committed to decides
-  bool is_told = false;  // actions that serve the goal do so at the chosen pose, and at no other one
+  bool is_told = false;     // actions that serve the goal do so at the chosen pose, and at no other one
+  double tolerance = 0.0;   // metres: how far from its own position it may be served
+  Position own{0.0, 0.0};   // with a tolerance: that position
+  bool is_widened = false;  // it has other poses
+  bool may_widen() const { return tolerance > 0.0 && !is_widened && !is_settled; }
+  /// Whether there is nothing to choose.
+  bool is_fixed() const { return is_settled || may_widen(); }
 
   const Alternative& choice() const { return poses[chosen]; }
 };
+
+/// The farthest tolerance, metres.
+inline constexpr double kMaxTolerance = 1.0;
+
+/// Adds poses about its own one to a goal with a tolerance: on eight circles, in twelve directions, with its
+/// heading. They are for when its own pose is of no use; nearer ones are preferred, whatever the way there
+/// takes, but a robot goes on to the one where it has been going. Only for goals that may_widen().
+void widen(OpenGoal& open);
+
+/// Chooses this place for the robot whose goal this is, which has a tolerance; it is widened, unless this is
+/// its own. Returns whether the place is near enough.
+bool choose_place(Robot& robot, OpenGoal& open, const Position& place);
 
 /// Chooses a pose, by its index, for the robot whose goal this is.
 void choose(Robot& robot, OpenGoal& open, std::size_t pose);

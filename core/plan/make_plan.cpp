@@ -58,14 +58,31 @@ class CheckingObserver final : public Observer {
   bool wants_any_ = true;  // improvement plans no further robots
 };
 
-/// Makes robots that are unplanned because of others give up their poses. Returns whether any of them may get
+/// Whether a robot may have a plan with other poses. What the poses of `any_of` make impossible is known
+/// before they are chosen, but not of a pose with a tolerance.
+bool may_help(const Unplanned& robot, const std::vector<OpenGoal>& open) {
+  using Reason = Unplanned::Reason;
+  if (robot.reason == Reason::blocked_by_robots) return true;
+  const bool is_of_goal = robot.reason == Reason::goal_blocked || robot.reason == Reason::goal_unreachable;
+  return is_of_goal &&
+         std::any_of(open.begin(), open.end(), [](const OpenGoal& goal) { return goal.may_widen(); });
+}
+
+/// Makes robots that are unplanned because of their poses give them up. Returns whether any of them may get
 /// another one.
-bool give_up_poses(const Plan& plan, OpenGoals& open) {
-  bool any = false;
-  for (const Unplanned& robot : plan.unplanned) {
-    if (robot.reason != Unplanned::Reason::blocked_by_robots) continue;
-    any = core::give_up_poses(open[robot.robot]) || any;
+bool give_up_poses(const Plan& plan, PlanTask& task, const StopCondition& stop) {
+  OpenFleet& open = *task.open;
+  std::vector<std::size_t> robots;
+  std::vector<OpenPlace> places;
+  for (const Unplanned& unplanned : plan.unplanned) {
+    const std::size_t robot = unplanned.robot;
+    if (!may_help(unplanned, open.goals[robot])) continue;
+    robots.push_back(robot);
+    for (std::size_t k = 0; k < open.goals[robot].size(); ++k) places.push_back({robot, k});
   }
+  widen_goals(task.problem.map(), task.problem.zones(), open.robots, open.goals, places, stop);
+  bool any = false;
+  for (const std::size_t robot : robots) any = core::give_up_poses(open.goals[robot]) || any;
   return any;
 }
 
@@ -134,7 +151,7 @@ class PlanMaker {
   Attempt with_other_poses(Attempt best) {
     for (int k = 0; best.task.open && !best.plan.unplanned.empty() && k < kMostSecondChoices; ++k) {
       PlanTask other = best.task;
-      if (!give_up_poses(best.plan, other.open->goals)) break;
+      if (!give_up_poses(best.plan, other, stop_)) break;
       if (stop_.met() || !choose_poses(other)) {
         best.plan.deterministic = false;
         break;

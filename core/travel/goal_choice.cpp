@@ -279,6 +279,54 @@ std::vector<OpenPlace> choose_by_distance(std::vector<Robot>& robots, OpenGoals&
   return choose_poses(robots, open, times_of, stop).value_or(std::vector<OpenPlace>());
 }
 
+bool widen_goals(const std::shared_ptr<const StaticMap>& map, const std::vector<Zone>& zones,
+                 std::vector<Robot>& robots, OpenGoals& open, const std::vector<OpenPlace>& places,
+                 const StopCondition& stop) {
+  std::vector<OpenPlace> widened;
+  OpenGoals wider(open.size());
+  for (const OpenPlace& place : places) {
+    OpenGoal& goal = open[place.robot][place.open];
+    if (!goal.may_widen()) continue;
+    widen(goal);
+    widened.push_back(place);
+    wider[place.robot].push_back(goal);
+  }
+  if (widened.empty()) return false;
+  leave_out_blocked_poses(map, zones, robots, wider, stop);
+  std::vector<std::size_t> next(open.size(), 0);
+  for (const OpenPlace& place : widened) {
+    open[place.robot][place.open] = std::move(wider[place.robot][next[place.robot]++]);
+  }
+  return true;
+}
+
+namespace {
+
+/// Last goals with a tolerance at whose own pose another robot stays; of two of them, the later one.
+std::vector<OpenPlace> crowded_goals(const std::vector<Robot>& robots, const OpenGoals& open) {
+  std::vector<OpenPlace> crowded;
+  const auto place_of = [](const Robot& robot) {
+    return robot.goal && !robot.invalid ? robot.goal->position : robot.committed_end().position;
+  };
+  for (std::size_t k = 0; k < robots.size(); ++k) {
+    if (open[k].empty() || !open[k].back().may_widen() || !stays_at(robots[k], open[k].back().goal)) continue;
+    const double radius = last_radius(robots[k]);
+    const auto is_crowding = [&](const Robot& other) {
+      const auto index = static_cast<std::size_t>(&other - robots.data());
+      if (index == k || other.yields()) return false;
+      const bool is_later = index > k && !open[index].empty() && open[index].back().may_widen() &&
+                            stays_at(other, open[index].back().goal);
+      const double allowed = radius + last_radius(other) - kContactTolerance;
+      return !is_later && (place_of(other) - place_of(robots[k])).squaredNorm() < allowed * allowed;
+    };
+    // Bounded: pairs of robots, as in Problem::create().
+    if (std::any_of(robots.begin(), robots.end(), is_crowding)) crowded.push_back({k, open[k].size() - 1});
+  }
+  return crowded;
+}
+
+}  // namespace
+
 std::vector<WithoutPose> choose_without_search(const std::shared_ptr<const StaticMap>& map,
                                                const std::vector<Zone>& zones, std::vector<Robot>& robots,
                                                OpenGoals& open, const StopCondition& stop) {
@@ -292,10 +340,21 @@ std::vector<WithoutPose> choose_without_search(const std::shared_ptr<const Stati
   }
   std::vector<WithoutPose> without;
   const auto add = [&](const std::vector<OpenPlace>& places, bool any_fits) {
-    for (const OpenPlace& place : places) without.push_back({place, any_fits});
+    for (const OpenPlace& place : places) {
+      const bool keeps_its_own = open[place.robot][place.open].tolerance > 0.0;
+      if (!keeps_its_own) without.push_back({place, any_fits});
+    }
   };
-  add(leave_out_blocked_poses(map, zones, robots, open, stop), false);
-  if (without.empty() && !stop.met()) add(choose_by_distance(robots, open, stop), true);
+  const std::vector<OpenPlace> blocked = leave_out_blocked_poses(map, zones, robots, open, stop);
+  add(blocked, false);
+  if (!without.empty() || stop.met()) return without;
+  widen_goals(map, zones, robots, open, blocked, stop);
+  std::vector<OpenPlace> taken = choose_by_distance(robots, open, stop);
+  // Bounded: each goal is widened once.
+  while (!stop.met() && widen_goals(map, zones, robots, open, crowded_goals(robots, open), stop)) {
+    taken = choose_by_distance(robots, open, stop);
+  }
+  add(taken, true);
   return without;
 }
 

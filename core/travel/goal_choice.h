@@ -46,7 +46,8 @@ struct WithoutPose {
 
 /// Chooses poses for the goals of robots as far as that takes no search: those at which committed and
 /// previous actions serve them, which settles them, and others by leave_out_blocked_poses() and
-/// choose_by_distance(). Goals of robots that are invalid are no longer open. Returns those without a pose;
+/// choose_by_distance(). Goals with a tolerance are widened where their own pose is of no use; if that does
+/// not help, they keep it. Goals of robots that are invalid are no longer open. Returns those without a pose;
 /// not all of them if `stop` is met first.
 std::vector<WithoutPose> choose_without_search(const std::shared_ptr<const StaticMap>& map,
                                                const std::vector<Zone>& zones, std::vector<Robot>& robots,
@@ -60,6 +61,12 @@ std::vector<WithoutPose> choose_without_search(const std::shared_ptr<const Stati
 std::optional<Problem> choose_by_arrival(const Problem& problem, const PlanOptions& options,
                                          std::vector<Robot>& robots, OpenGoals& open, bool& finished,
                                          const StopCondition& stop, Executor& executor);
+
+/// Widens these goals as far as they may be, and leaves out the poses that do not fit. Returns whether there
+/// is any.
+bool widen_goals(const std::shared_ptr<const StaticMap>& map, const std::vector<Zone>& zones,
+                 std::vector<Robot>& robots, OpenGoals& open, const std::vector<OpenPlace>& places,
+                 const StopCondition& stop);
 
 /// Makes the poses that a robot has the last ones to be chosen again, where it has others. Returns whether it
 /// has any.

@@ -15,7 +15,7 @@ namespace fleetplan::core {
 namespace {
 
 /// Seconds: the cost of leaving the pose to which the robot has been going. It is no reason to crowd others
-/// out.
+/// out, but one not to return to the own pose of a goal with a tolerance.
 constexpr double kChangeOfMind = 1e6;
 /// How often two last goals that overlap are told apart by forbidding one of them.
 constexpr int kMostConflicts = 64;
@@ -61,7 +61,7 @@ class Chooser {
     std::vector<OpenPlace> places;
     for (std::size_t robot = 0; robot < robots_.size(); ++robot) {
       std::size_t& at = next[robot];
-      while (at < open_[robot].size() && open_[robot][at].is_settled) ++at;
+      while (at < open_[robot].size() && open_[robot][at].is_fixed()) ++at;
       if (at == open_[robot].size() || stays_at(robots_[robot], open_[robot][at].goal)) continue;
       places.push_back({robot, at++});
     }
@@ -114,7 +114,7 @@ class Chooser {
   std::optional<std::vector<OpenPlace>> choose_last() {
     for (std::size_t robot = 0; robot < robots_.size(); ++robot) {
       const std::vector<OpenGoal>& open = open_[robot];
-      if (open.empty() || open.back().is_settled || !stays_at(robots_[robot], open.back().goal)) continue;
+      if (open.empty() || open.back().is_fixed() || !stays_at(robots_[robot], open.back().goal)) continue;
       last_.push_back({robot, open.size() - 1});
     }
     if (last_.empty()) return std::vector<OpenPlace>();

@@ -17,6 +17,7 @@ struct Visit {
   double t_arrive = 0.0;                   // seconds; begin of the rest in the goal pose
   std::optional<double> t_leave = {};      // seconds, the end of the service; none at the last goal
   std::optional<std::size_t> choice = {};  // number of the pose in Goal::any_of; none: the goal has one pose
+  std::optional<Position> place = {};      // where a goal with a tolerance is served
 };
 
 /// When a robot would come to a goal that its plan does not reach.

@@ -42,6 +42,11 @@ struct Goal {
   /// The number in `any_of` of the only pose at which `committed` and `previous` serve the goal; none: that
   /// in which they rest first. It does not bind the plan.
   std::optional<std::size_t> choice = {};
+  /// Metres, 0 to 1: where the pose has no room or no way, the goal is served at a place so near to it, with
+  /// the same heading; Visit::place tells where. Not together with `any_of`.
+  double tolerance = 0.0;
+  /// With a tolerance: the place at which `committed` and `previous` serve the goal; none: its own.
+  std::optional<Position> place = {};
 };
 
 /// A differential-drive robot: an open disk that waits, rotates in place or translates straight ahead (or

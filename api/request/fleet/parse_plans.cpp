@@ -27,9 +27,9 @@ namespace {
 constexpr std::array<std::string_view, 12> kPlanMembers{
     "robot", "cost",       "lower_bound",      "estimated_cost", "ends_at",  "actions",
     "stuck", "blocked_by", "blocked_by_total", "visits",         "metadata", "lattice_spacing"};
-constexpr std::array<std::string_view, 10> kVisitMembers{
-    "goal",   "t_arrive", "t_leave", "late_by", "estimated_t_arrive",
-    "choice", "reason",   "zone",    "actions", "metadata"};
+constexpr std::array<std::string_view, 11> kVisitMembers{
+    "goal",   "t_arrive", "t_leave", "late_by", "estimated_t_arrive", "choice", "place",
+    "reason", "zone",     "actions", "metadata"};
 
 // A plan that begins before 0 is a violation to report, not a fault of the request.
 constexpr Range kPlanTime{-kLongestTime, kLongestTime, "seconds"};
@@ -54,7 +54,7 @@ void parse_choice(const JsonReader& member, const JsonReader& item, ParsedRobot&
   if (!number || !goal) return;
   const auto open = std::find_if(read.open.begin(), read.open.end(),
                                  [&](const core::OpenGoal& one) { return one.goal == *goal; });
-  if (open == read.open.end()) {
+  if (open == read.open.end() || open->tolerance > 0.0) {
     return member.fault(fault::kOutOfRange, [&] {
       return "Goal " + std::to_string(*goal) + " of robot " + in_quotes(read.robot.id) +
              " has no any_of; leave choice out.";
@@ -70,13 +70,34 @@ void parse_choice(const JsonReader& member, const JsonReader& item, ParsedRobot&
   open->is_settled = true;
 }
 
+/// Reads the place that a visit names, or null, for a robot whose goal has a tolerance.
+void parse_place_of_visit(const JsonReader& member, const JsonReader& item, const WorldFrame& frame,
+                          ParsedRobot& read) {
+  const auto goal = item.find("goal").natural();
+  if (member.is_null() || !goal) return;
+  const auto open = std::find_if(read.open.begin(), read.open.end(), [&](const core::OpenGoal& one) {
+    return one.goal == *goal && one.tolerance > 0.0;
+  });
+  if (open == read.open.end()) {
+    return member.fault(fault::kOutOfRange, [&] {
+      return "Goal " + std::to_string(*goal) + " of robot " + in_quotes(read.robot.id) +
+             " has no tolerance; leave place out.";
+    });
+  }
+  parse_place(member, frame, read.robot, *open);
+  open->is_settled = true;
+}
+
 /// Settles what is open by the visits of the plan or, if they say nothing of it, by its actions.
-void settle_choices(const JsonReader& json, const core::RobotPlan& plan, ParsedRobot& read) {
+void settle_choices(const JsonReader& json, const core::RobotPlan& plan, const WorldFrame& frame,
+                    ParsedRobot& read) {
   bool is_told = false;
   for (const JsonReader item : json.find("visits").items()) {
-    const JsonReader member = item.find("choice");
-    if (member) parse_choice(member, item, read);
-    is_told = is_told || member;
+    const JsonReader choice = item.find("choice");
+    const JsonReader place = item.find("place");
+    if (choice) parse_choice(choice, item, read);
+    if (place) parse_place_of_visit(place, item, frame, read);
+    is_told = is_told || choice || place;
   }
   if (read.open.empty()) return;
   if (is_told) return core::choose_unserved(read.robot, read.open, plan.actions, json.work().reading());
@@ -149,7 +170,7 @@ std::vector<core::RobotPlan> parse_plans(const JsonReader& member, std::vector<P
       plan.robot = *owner;
       is_planned[*owner] = true;
       robots[*owner].first_unserved = find_unserved(json.find("visits"));
-      settle_choices(json, plan, robots[*owner]);
+      settle_choices(json, plan, frame, robots[*owner]);
       core::set_inertia(plan.actions, robots[*owner].robot);
       plans.push_back(std::move(plan));
     }

@@ -22,11 +22,13 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::array<std::string_view, 14> kGoalMembers{"x",
+constexpr std::array<std::string_view, 16> kGoalMembers{"x",
                                                         "y",
                                                         "theta",
                                                         "any_of",
                                                         "choice",
+                                                        "tolerance",
+                                                        "place",
                                                         "service",
                                                         "not_before",
                                                         "due",
@@ -36,6 +38,7 @@ constexpr std::array<std::string_view, 14> kGoalMembers{"x",
                                                         "linear_deceleration_after",
                                                         "actions",
                                                         "metadata"};
+constexpr Range kGoalTolerance{0.0, core::kMaxTolerance, "metres"};
 constexpr std::array<std::string_view, 4> kAlternativeMembers{"x", "y", "theta", "bias"};
 
 /// A robot that waits for `not_before` is not late, so it cannot be due before.
@@ -92,6 +95,30 @@ std::optional<std::size_t> parse_choice(const JsonReader& goal, std::size_t pose
   return std::nullopt;
 }
 
+/// Reads `tolerance`, and the `place` at which the actions of the robot serve the goal. Returns the goal as
+/// an open one; none if it has no tolerance.
+std::optional<core::OpenGoal> parse_tolerance(const JsonReader& json, const core::Goal& pose,
+                                              const WorldFrame& frame) {
+  const JsonReader member = json.find("tolerance");
+  const double tolerance = member.number(kGoalTolerance).value_or(0.0);
+  const JsonReader place = json.find("place");
+  if (member && json.find("any_of")) {
+    member.fault(fault::kDuplicate,
+                 "The goal has any_of, whose poses are all that it may be served at; leave tolerance out.");
+    return std::nullopt;
+  }
+  if (tolerance <= 0.0) {
+    if (place) place.fault(fault::kOutOfRange, "The goal has no tolerance; leave place out.");
+    return std::nullopt;
+  }
+  core::OpenGoal open{.poses = {{pose.position, pose.theta}}, .tolerance = tolerance, .own = pose.position};
+  core::Robot robot;  // of the goal alone
+  robot.goal = pose;
+  parse_place(place, frame, robot, open);
+  open.is_told = static_cast<bool>(place);
+  return open;
+}
+
 /// Reads what changes with the service.
 void parse_load(const JsonReader& json, core::Goal& goal) {
   goal.radius_after = json.find("radius_after").number(kLength);
@@ -115,6 +142,8 @@ void add_goal(const JsonReader& member, const WorldFrame& frame, Quota& quota, P
   }
   const auto choice = parse_choice(json, poses.size());
   if (choice) pose = core::Goal{poses[*choice].position, poses[*choice].theta};
+  std::optional<core::OpenGoal> near = parse_tolerance(json, pose.value_or(core::Goal()), frame);
+  if (near && pose) pose->position = near->choice().position;
   core::Goal goal = pose.value_or(core::Goal());
   const auto service = json.find("service").number(kDuration);
   const auto not_before = json.find("not_before").number(kDuration);
@@ -128,7 +157,7 @@ void add_goal(const JsonReader& member, const WorldFrame& frame, Quota& quota, P
                   poses.empty() ? std::string() : text_of_any_of(any_of)};
   const bool has_texts = !texts.empty();
   if (!pose || member.fault_count() != before) return;
-  if (service || not_before || goal.due || goal.changes_load() || has_texts) read.lists_visits = true;
+  if (service || not_before || goal.due || goal.changes_load() || has_texts || near) read.lists_visits = true;
   if (has_texts) {
     read.texts.resize(read.goals.size());
     read.texts.push_back(std::move(texts));
@@ -139,11 +168,27 @@ void add_goal(const JsonReader& member, const WorldFrame& frame, Quota& quota, P
                          .chosen = choice.value_or(0),
                          .is_told = choice.has_value()});
   }
+  if (near) {
+    near->goal = read.goals.size();
+    read.open.push_back(std::move(*near));
+  }
   read.goals.push_back(goal);
   read.places.push_back(member);
 }
 
 }  // namespace
+
+void parse_place(const JsonReader& member, const WorldFrame& frame, core::Robot& robot,
+                 core::OpenGoal& open) {
+  constexpr std::array<std::string_view, 2> kMembers{"x", "y"};
+  if (!member || member.is_null()) return;
+  const auto place = parse_pose(member.object(kMembers), frame);
+  if (!place || core::choose_place(robot, open, place->position)) return;
+  member.fault(fault::kOutOfRange, [&] {
+    return "The place is " + number_text((place->position - open.own).norm()) +
+           " m from the goal, whose tolerance is " + number_text(open.tolerance) + " m.";
+  });
+}
 
 std::optional<core::Goal> parse_pose(const JsonReader& pose, const WorldFrame& frame) {
   const std::size_t before = pose.fault_count();

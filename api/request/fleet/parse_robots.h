@@ -26,7 +26,8 @@ struct ParsedGoals {
   /// each is visited.
   bool lists_visits = false;
   std::vector<GoalTexts> texts;  // by goal; shorter if the last ones have none
-  /// The goals that are served at one of several poses, ascending. They have the first pose in `goals`.
+  /// The goals that are served at one of several poses or near their own, ascending. They have the pose that
+  /// is told, or the first one, in `goals`.
   std::vector<core::OpenGoal> open;
 };
 
@@ -36,6 +37,9 @@ std::optional<core::Goal> parse_pose(const JsonReader& pose, const WorldFrame& f
 
 /// Reads a pose that has no other members.
 std::optional<core::Goal> parse_plain_pose(const JsonReader& pose, const WorldFrame& frame);
+
+/// Reads `place`, which may be absent or null, of a goal with a tolerance, and chooses it for the robot.
+void parse_place(const JsonReader& member, const WorldFrame& frame, core::Robot& robot, core::OpenGoal& open);
 
 /// Reads `goal` or `goals` of a robot. Without both, or with an empty list, there are none. `quota` limits
 /// the goals of the request, and the poses of `any_of`.

@@ -160,7 +160,7 @@ def what_is_given(plans: Plans) -> Plans:
 
 
 _ACTION = ("type", "t_start", "t_end", "from", "to", "goal", "reverse", "profile")
-_VISIT = ("goal", "t_arrive", "t_leave", "choice")
+_VISIT = ("goal", "t_arrive", "t_leave", "choice", "place")
 
 
 def _given(whole: Mapping[str, Any], names: Sequence[str]) -> dict[str, Any]:

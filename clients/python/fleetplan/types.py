@@ -216,10 +216,17 @@ class GoalDetails(TypedDict, total=False):
     metadata: Metadata
 
 
+class Place(TypedDict):
+    x: float
+    y: float
+
+
 class PlacedGoal(GoalDetails):
     x: float
     y: float
     theta: NotRequired[float]
+    tolerance: NotRequired[float]
+    place: NotRequired[Place]
 
 
 class Alternative(TypedDict):
@@ -311,6 +318,7 @@ class Visit(TypedDict):
     reason: NotRequired[Literal["zone_closed", "goal_before"]]
     zone: NotRequired[str]
     choice: NotRequired[int | None]
+    place: NotRequired[Place | None]
     late_by: NotRequired[float | None]
     estimated_t_arrive: NotRequired[float | None]
     actions: NotRequired[list[GoalAction]]

@@ -88,7 +88,10 @@ inline void add_open_goals(support::Dice& dice, Json& json) {
   for (Json& robot : json.at("robots")) {
     for (Json* goal : goals_of(robot)) {
       const Json place = places[own++];
-      if (dice.chance(0.4)) continue;
+      if (dice.chance(0.4)) {
+        if (dice.chance(0.5)) (*goal)["tolerance"] = dice.between(0.0, 1.0);
+        continue;
+      }
       Json poses = Json::array({place});
       for (int more = 1 + dice.below(4); more > 0; --more) {
         poses.push_back(places[static_cast<std::size_t>(dice.below(static_cast<int>(places.size())))]);

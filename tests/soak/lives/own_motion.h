@@ -58,7 +58,12 @@ inline bool own_is_at(const Json& pose, const Json& place) {
 }
 
 inline bool own_serves(const Json& pose, const Json& goal) {
-  if (!goal.contains("any_of")) return own_is_at(pose, goal);
+  if (!goal.contains("any_of")) {
+    if (!goal.contains("place")) return own_is_at(pose, goal);
+    Json at_place = goal;
+    at_place.update(goal.at("place"));
+    return own_is_at(pose, at_place);
+  }
   const Json& poses = goal.at("any_of");
   if (goal.contains("choice")) return own_is_at(pose, poses.at(goal.at("choice").get<std::size_t>()));
   return std::any_of(poses.begin(), poses.end(), [&](const Json& one) { return own_is_at(pose, one); });
