@@ -284,6 +284,7 @@ std::optional<PlanRequest> parse_plan_request(const JsonReader& request, const L
 void tell_choices(const core::OpenGoals& open, std::vector<ReceivedRobot>& received) {
   // A request with robots that have no place is refused; there are goals of the others only.
   if (open.size() != received.size()) return;
+  // Bounded: the goals of the request.
   for (std::size_t k = 0; k < received.size(); ++k) {
     for (const core::OpenGoal& goal : open[k]) tell_choice(goal, received[k]);
   }

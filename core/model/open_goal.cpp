@@ -34,6 +34,7 @@ double bias_at(double distance) { return kBiasOfPlaces * (1.0 + distance); }
 void widen(OpenGoal& open) {
   open.is_widened = true;
   const Alternative own = open.poses.front();
+  // Bounded: kCircles, kDirections.
   for (int circle = 1; circle <= kCircles; ++circle) {
     const double distance = open.tolerance * circle / kCircles;
     for (int k = 0; k < kDirections; ++k) {
