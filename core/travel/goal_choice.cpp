@@ -11,6 +11,8 @@
 namespace fleetplan::core {
 namespace {
 
+/// How many goals of a fleet are widened: each has about a hundred poses then.
+constexpr std::size_t kMaxWidened = 100;
 /// How many of the goals that follow an open one count when a pose is chosen for it.
 constexpr std::size_t kGoalsAhead = 8;
 
@@ -284,9 +286,14 @@ bool widen_goals(const std::shared_ptr<const StaticMap>& map, const std::vector<
                  const StopCondition& stop) {
   std::vector<OpenPlace> widened;
   OpenGoals wider(open.size());
+  std::size_t wide = 0;
+  // Bounded: the goals of the request.
+  for (const std::vector<OpenGoal>& goals : open) {
+    for (const OpenGoal& goal : goals) wide += goal.is_widened ? 1 : 0;
+  }
   for (const OpenPlace& place : places) {
     OpenGoal& goal = open[place.robot][place.open];
-    if (!goal.may_widen()) continue;
+    if (!goal.may_widen() || wide++ >= kMaxWidened) continue;
     widen(goal);
     widened.push_back(place);
     wider[place.robot].push_back(goal);

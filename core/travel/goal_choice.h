@@ -62,8 +62,8 @@ std::optional<Problem> choose_by_arrival(const Problem& problem, const PlanOptio
                                          std::vector<Robot>& robots, OpenGoals& open, bool& finished,
                                          const StopCondition& stop, Executor& executor);
 
-/// Widens these goals as far as they may be, and leaves out the poses that do not fit. Returns whether there
-/// is any.
+/// Widens these goals as far as they may be, the first hundred of a fleet, and leaves out the poses that do
+/// not fit. Returns whether there is any.
 bool widen_goals(const std::shared_ptr<const StaticMap>& map, const std::vector<Zone>& zones,
                  std::vector<Robot>& robots, OpenGoals& open, const std::vector<OpenPlace>& places,
                  const StopCondition& stop);

@@ -160,6 +160,14 @@ Json obstacles_of(const Extent& extent, Choices& choices) {
   return obstacles;
 }
 
+/// Robots from this one on have all the same goal, or one near it.
+void add_tolerances(Json& robots, std::size_t first) {
+  for (std::size_t k = first; k < robots.size(); ++k) {
+    if (robots[k].contains("goal")) robots[k]["goal"] = robots[k]["start"];
+    if (robots[k].contains("goal")) robots[k]["goal"].update({{"tolerance", 1.0}, {"x", 0.5}, {"y", 0.5}});
+  }
+}
+
 /// Goals that are served at one of the starts of robots, as many as there may be; those of all, or others
 /// each.
 void add_open_goals(Json& robots, Choices& choices) {
@@ -177,6 +185,7 @@ void add_open_goals(Json& robots, Choices& choices) {
     robots[k]["goal"]["any_of"] = std::move(any_of);
     robots[k]["idle"] = k < poses / 2 ? "stay" : "yield";
   }
+  add_tolerances(robots, kMostRobots);
 }
 
 /// Members that a request of POST /v1/plan may have besides.
@@ -220,7 +229,9 @@ void add_members(Json& request, Choices& choices) {
     robots[k].erase("goal");
     robots[k]["goals"] = std::move(list);
   }
-  if (choices.yes()) add_open_goals(robots, choices);
+  const bool has_open_goals = choices.yes();
+  if (has_open_goals) add_open_goals(robots, choices);
+  if (!has_open_goals && options.contains("start_overlap")) add_tolerances(robots, 0);
   if (choices.yes()) {
     request["robot_defaults"]["linear_acceleration"] = choices.one_of(std::array{1e-3, 0.5, 1e6});
     request["robot_defaults"]["angular_acceleration"] = choices.one_of(std::array{1e-3, 2.0, 1e6});

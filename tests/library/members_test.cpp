@@ -71,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"Obstacle", {"after"}}, Case{"Action", {}},
                     Case{"RobotPlan", {"ends_at", "blocked_by_total", "metadata"}},
                     Case{"Unplanned", {"blocked_by_total", "errors", "metadata"}}, Case{"Violation", {}}),
-    [](const auto& info) { return info.param.schema; });
+    [](const testing::TestParamInfo<Case>& of) { return of.param.schema; });
 
 }  // namespace TEST_FILE
 }  // namespace fleetplan
