@@ -115,10 +115,12 @@ bool write_actions(JsonWriter& json, const std::vector<core::Action>& actions, c
                    const ReceivedRobot& received, const core::Position& origin,
                    const core::StopCondition* stop) {
   constexpr std::size_t kActionsAtOnce = 64;  // between two questions
+  std::optional<core::StopStride> stride;
+  if (stop != nullptr) stride = core::StopStride::from_first(*stop, kActionsAtOnce);
   ActionWriter writer(json, robot, received, origin);
   json.key("actions").begin_array();
   for (std::size_t index = 0; index < actions.size(); ++index) {
-    if (stop != nullptr && index % kActionsAtOnce == 0 && stop->met()) return false;
+    if (stride && stride->met_at_step()) return false;
     writer.write(actions[index], index);
   }
   json.end_array();

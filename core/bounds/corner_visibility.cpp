@@ -28,7 +28,7 @@ constexpr double kWidthMargin = 0.99;
 constexpr int kSectorWork = 2;
 
 /// Rows, or corners, between two checks of the stop condition.
-constexpr int kStopStride = 16;
+constexpr std::size_t kStopStride = 16;
 
 /// The corner at a grid point with one blocked cell around it.
 Corner convex_corner(const OccupancyGrid& grid, int x, int line) {
@@ -192,7 +192,8 @@ CornerVisibility::CornerVisibility(const OccupancyGrid& grid, double least_radiu
     : grid_(grid),
       least_radius_(least_radius / grid.resolution()),
       most_radius_(most_radius / grid.resolution()),
-      stop_(stop, kStopStride) {
+      stop_(stop),
+      stride_(stop_, kStopStride) {
   find_corners();
   find_blocked_runs();
   if (stopped()) return;

@@ -34,11 +34,13 @@ class CornerVisibility {
   /// Finds corners for disks with radii from `least_radius` to `most_radius` (metres, >= 0).
   CornerVisibility(const OccupancyGrid& grid, double least_radius, double most_radius,
                    const StopCondition& stop);
+  CornerVisibility(const CornerVisibility&) = delete;
+  CornerVisibility& operator=(const CornerVisibility&) = delete;
 
   /// Whether the stop condition was met. From then on corners and what is visible may be incomplete.
-  bool stopped() const { return stop_.met(); }
+  bool stopped() const { return stride_.met(); }
   /// Whether the stop condition was met, for loops over corners: asks it only once in a while.
-  bool stopped_at_step() { return stop_.met_at_step(); }
+  bool stopped_at_step() { return stride_.met_at_step(); }
 
   const OccupancyGrid& grid() const { return grid_; }
   int count() const { return corners_.next_index(); }
@@ -78,7 +80,8 @@ class CornerVisibility {
   IndexedVector<int> first_run_;      // by row, and the number of runs at the end
   IndexedVector<std::optional<std::vector<int>>> bends_from_;  // by corner
   std::int64_t work_ = 0;
-  StopStride stop_;
+  const StopCondition stop_;
+  StopStride stride_;  // asks stop_
 };
 
 }  // namespace fleetplan::core

@@ -17,7 +17,7 @@ constexpr double kSameAngle = 1e-6;
 /// Rounding of the cost of a path, relative and in seconds.
 constexpr double kCostRounding = 1e-9;
 /// Expansions between two checks of the stop condition.
-constexpr int kExpansionStride = 16;
+constexpr std::size_t kExpansionStride = 16;
 
 }  // namespace
 
@@ -40,12 +40,13 @@ TautPathResult TautPathSearch::run(const GoalLeg& leg, const Body& body, double 
   expand_start();
   if (corners_.stopped()) return {straight, true};
   TautPathResult result{straight, false};
-  for (int expansion = 1; !open_.empty(); ++expansion) {
+  StopStride stride(stop, kExpansionStride);
+  while (!open_.empty()) {
     const Open best = open_.front();
     result.seconds = std::max(straight, best.f + loss);
     if (arrivals_[best.arrival].at_goal) return result;
     if (work() > last_work) return result;
-    if (expansion % kExpansionStride == 0 && stop.met()) {
+    if (stride.met_at_step()) {
       result.cut_off = true;
       return result;
     }
@@ -176,7 +177,7 @@ constexpr std::int64_t kMaxWork = 30'000'000;
 /// One robot may use the remaining work divided by this, since the first ones also compute what others share.
 constexpr std::int64_t kWorkDivisor = 64;
 /// Legs between two checks of the stop condition while it is found out which ones are straight.
-constexpr std::int64_t kLegsBetweenPolls = 64;
+constexpr std::size_t kLegsBetweenPolls = 64;
 
 /// Whether the robot's disk is clear of obstacles at both ends of a leg. Elsewhere it always is.
 bool fits_at_ends(const Instance& instance, std::size_t robot, std::size_t leg) {
@@ -247,12 +248,12 @@ void TautPathBounds::bound(const Instance& instance, const std::vector<std::size
                            const std::vector<double>& costs, const StopCondition& stop) {
   LegsByRadius out_of_sight;  // legs of robots of one radius share their tangents
   std::vector<Way> ways;
-  std::int64_t tested = 0;
+  StopStride stride(stop, kLegsBetweenPolls);
   for (const std::size_t robot : robots) {
     const Way& way = ways.emplace_back(instance, robot);
     seconds_[robot] = end_after(instance.itinerary(robot), way.seconds);
     for (std::size_t leg = 0; leg < way.legs.size() && !cut_off_; ++leg) {
-      if (++tested % kLegsBetweenPolls == 0) cut_off_ = stop.met();
+      cut_off_ = stride.met_at_step();
       const double radius = instance.views(robot)[leg].body.wall_radius;
       const double reduced = radius - 2.0 * TangentGraph::kRadiusReduction;
       if (reduced <= 0.0) continue;

@@ -53,19 +53,20 @@ struct NearRobot {
 /// Finds the stretches of robots that are near those of others, by buckets of the plane.
 class NearStretches {
  public:
-  /// Indexes the stretches of robots, which are given by robot and must outlive this object.
-  explicit NearStretches(const std::vector<std::vector<PlannedStretch>>& by_robot)
+  /// Indexes the stretches of robots, which are given by robot. The arguments must outlive this object.
+  NearStretches(const std::vector<std::vector<PlannedStretch>>& by_robot, const StopCondition& stop)
       : by_robot_(by_robot),
         largest_radius_(largest_radius(by_robot)),
         grid_(grid_of(by_robot, largest_radius_)),
-        buckets_(grid_.count()) {}
+        buckets_(grid_.count()),
+        stride_(stop, kLooksBetweenPolls) {}
 
-  /// Returns the robots added before that are near this one somewhere, ascending. Returns none if `stop` is
-  /// met.
-  std::optional<std::vector<NearRobot>> near(std::size_t robot, const StopCondition& stop) {
+  /// Returns the robots added before that are near this one somewhere, ascending. Returns none if the stop
+  /// condition is met.
+  std::optional<std::vector<NearRobot>> near(std::size_t robot) {
     std::vector<std::vector<NearPair>> by_other(by_robot_.size());
     for (std::size_t index = 0; index < by_robot_[robot].size(); ++index) {
-      if (!find_near(robot, index, by_other, stop)) return std::nullopt;
+      if (!find_near(robot, index, by_other)) return std::nullopt;
     }
     std::vector<NearRobot> found;
     for (std::size_t other = 0; other < by_other.size(); ++other) {
@@ -74,15 +75,15 @@ class NearStretches {
     return found;
   }
 
-  /// Adds a robot's stretches to the index. Returns false if `stop` is met.
-  bool add(std::size_t robot, const StopCondition& stop) {
+  /// Adds a robot's stretches to the index. Returns false if the stop condition is met.
+  bool add(std::size_t robot) {
     for (std::size_t index = 0; index < by_robot_[robot].size(); ++index) {
       const Segment& path = by_robot_[robot][index].planned.path;
       const auto id = static_cast<std::uint32_t>(entries_.size());
       entries_.push_back({robot, index});
       const bool added = grid_.walk(path.from, path.to, [&](std::size_t bucket, double, double) {
         buckets_[bucket].push_back(id);
-        return !stops_after(1, stop);
+        return !stride_.met_at_step();
       });
       if (!added) return false;
     }
@@ -90,13 +91,12 @@ class NearStretches {
   }
 
  private:
-  /// Finds the stretches near one stretch, by robot. Returns false if `stop` is met.
-  bool find_near(std::size_t robot, std::size_t stretch, std::vector<std::vector<NearPair>>& by_other,
-                 const StopCondition& stop) {
+  /// Finds the stretches near one stretch, by robot. Returns false if the stop condition is met.
+  bool find_near(std::size_t robot, std::size_t stretch, std::vector<std::vector<NearPair>>& by_other) {
     const PlannedStretch& mine = by_robot_[robot][stretch];
     ++asked_;
     const auto look_into = [&](std::size_t bucket, double, double) {
-      if (stops_after(1 + buckets_[bucket].size(), stop)) return;
+      if (stride_.met_after(1 + buckets_[bucket].size())) return;
       for (const std::uint32_t id : buckets_[bucket]) {
         Entry& entry = entries_[id];
         if (entry.asked == asked_) continue;
@@ -110,15 +110,7 @@ class NearStretches {
     };
     // Only the place matters, so the stretch is given a duration of one second.
     grid_.cover(MovingDisk({mine.planned.path, 0.0, 1.0}), mine.radius + largest_radius_, look_into);
-    return !stopped_;
-  }
-
-  /// Looks at the stop condition once in many entries; stays true once it is met.
-  bool stops_after(std::size_t looks, const StopCondition& stop) {
-    looks_ += looks;
-    if (looks_ < kLooksBetweenPolls) return stopped_;
-    looks_ = 0;
-    return stopped_ = stopped_ || stop.met();
+    return !stride_.met();
   }
 
   struct Entry {
@@ -133,8 +125,7 @@ class NearStretches {
   std::vector<std::vector<std::uint32_t>> buckets_;  // indices of entries_
   std::vector<Entry> entries_;
   std::uint64_t asked_ = 0;
-  std::size_t looks_ = 0;  // entries examined since the last look at the stop condition
-  bool stopped_ = false;
+  StopStride stride_;  // over the entries that are examined
 };
 
 /// A dependency by whole progress: robot `waits` may not pass `gate` until robot `leads` has reached `until`.
@@ -227,17 +218,13 @@ class Implications {
 std::optional<std::vector<WholeDependency>> without_implied(std::vector<WholeDependency> all,
                                                             const StopCondition& stop) {
   std::vector<WholeDependency> kept;
-  std::size_t comparisons = 0;
+  StopStride stride(stop, kComparisonsBetweenPolls);
   const Implications implications(std::move(all));
   for (const PairRange& pair : implications.pairs()) {
     const auto neighbours = implications.waiting(pair.waits);
     for (std::size_t k = pair.begin; k < pair.end; ++k) {
       const WholeDependency& one = implications.all()[k];
-      comparisons += 1 + neighbours.second - neighbours.first;
-      if (comparisons >= kComparisonsBetweenPolls) {
-        if (stop.met()) return std::nullopt;
-        comparisons = 0;
-      }
+      if (stride.met_after(1 + neighbours.second - neighbours.first)) return std::nullopt;
       if (!implications.is_implied(one, neighbours)) kept.push_back(one);
     }
   }
@@ -253,10 +240,10 @@ class DependencyMaker {
 
   std::optional<Dependencies> run() {
     if (!find_stretches()) return std::nullopt;
-    NearStretches index(stretches_);
+    NearStretches index(stretches_, stop_);
     for (std::size_t robot = 0; robot < stretches_.size(); ++robot) {
-      const auto near = index.near(robot, stop_);
-      if (!near || !compare(robot, *near) || !index.add(robot, stop_)) return std::nullopt;
+      const auto near = index.near(robot);
+      if (!near || !compare(robot, *near) || !index.add(robot)) return std::nullopt;
     }
     const auto kept = without_implied(std::move(found_), stop_);
     if (!kept || kept->size() + dependencies_.tight.size() > most()) return std::nullopt;

@@ -201,7 +201,8 @@ class StaircaseSearch {
         first_(first),
         second_(second),
         slack_(slack),
-        stop_(stop) {}
+        stop_(stop),
+        stride_(stop, kRegionsBetweenPolls) {}
 
   std::optional<Staircase> run() {
     for (double gate = gate_after(-1.0); gate < kNever;) {
@@ -222,7 +223,7 @@ class StaircaseSearch {
       if (until > 0.0) found_.steps.push_back({gate, until});
       gate = next > gate ? next : kNever;
     }
-    if (stopped_) return std::nullopt;
+    if (stride_.met()) return std::nullopt;
     return std::move(found_);
   }
 
@@ -231,7 +232,7 @@ class StaircaseSearch {
   double gate_after(double first) {
     double least = kNever;
     by_second_.for_each(first, [&](const PassedRegion& region) {
-      if (region.least_second() >= least || stops()) return false;
+      if (region.least_second() >= least || stride_.met_at_step()) return false;
       least = std::min(least, region.second_after(first));
       return true;
     });
@@ -242,17 +243,11 @@ class StaircaseSearch {
   double needed_until(double second) {
     double most = 0.0;
     by_first_.for_each(-second, [&](const PassedRegion& region) {
-      if (region.most_first() <= most || stops()) return false;
+      if (region.most_first() <= most || stride_.met_at_step()) return false;
       most = std::max(most, region.first_before(second));
       return true;
     });
     return most;
-  }
-
-  /// Looks at the stop condition once in many regions; stays true once it is met.
-  bool stops() {
-    if (++looks_ % kRegionsBetweenPolls == 0) stopped_ = stopped_ || stop_.met();
-    return stopped_;
   }
 
   void note_tightness(double second) {
@@ -271,8 +266,7 @@ class StaircaseSearch {
   const Pace& second_;
   double slack_;
   const StopCondition& stop_;
-  std::size_t looks_ = 0;
-  bool stopped_ = false;
+  StopStride stride_;
   bool was_tight_ = false;
   Staircase found_;
 };
@@ -365,8 +359,9 @@ class PairRegions {
     std::uint32_t stretch = 0;
     std::uint32_t reached = 0;  // the last stretch of the first robot in a region with an earlier one
     std::uint32_t reached_here = 0;
+    StopStride stride = StopStride::from_first(stop, kPairsBetweenPolls);
     for (std::size_t k = 0; k < near.size(); ++k) {
-      if (k % kPairsBetweenPolls == 0 && stop.met()) return false;
+      if (stride.met_at_step()) return false;
       const NearPair& pair = near[k];
       if (pair.stretch != stretch) reached = std::max(reached, reached_here);
       stretch = pair.stretch;
@@ -389,8 +384,9 @@ class PairRegions {
     std::uint32_t stretch = kNone;
     std::uint32_t entered = kNone;  // the first stretch of the first robot in a region with a later one
     std::uint32_t entered_here = kNone;
+    StopStride stride = StopStride::from_first(stop, kPairsBetweenPolls);
     for (std::size_t k = 0; k < near.size(); ++k) {
-      if (k % kPairsBetweenPolls == 0 && stop.met()) return false;
+      if (stride.met_at_step()) return false;
       const NearPair& pair = near[near.size() - 1 - k];
       if (pair.stretch != stretch) entered = std::min(entered, entered_here);
       stretch = pair.stretch;

@@ -17,7 +17,7 @@ namespace {
 /// Seconds: rounding of times that were added up.
 constexpr double kOnTime = 1e-6;
 constexpr std::size_t kNobody = std::numeric_limits<std::size_t>::max();
-constexpr int kMarksBetweenPolls = 256;
+constexpr std::size_t kMarksBetweenPolls = 256;
 
 /// A gate of a robot, or a progress that others wait for.
 struct Mark {

@@ -10,10 +10,9 @@
 namespace fleetplan::core {
 namespace {
 
-/// The most places that are tested for one disk and for all of them, and tests between two questions of the stop condition.
+/// The most places that are tested for one disk and for all of them.
 constexpr std::size_t kMaxPlacesOfOne = 8'000;
 constexpr std::size_t kMaxPlaces = 40'000;
-constexpr std::size_t kTestsBetweenPolls = 32;
 /// Places are looked for on circles about the disk, each so much larger than the one before.
 constexpr double kGrowth = 1.05;
 constexpr double kLeastGrowth = 1e-3;  // metres
@@ -38,7 +37,8 @@ Position direction(int index) {
 }  // namespace
 
 bool NearestPlaces::fits(const LineOfSight& sight, const Position& place, double radius) {
-  if (++tests_ % kTestsBetweenPolls == 0) is_over_ = is_over_ || stop_.met();
+  ++tests_;
+  stride_.met_at_step();
   return sight.disk_fits(place, radius);
 }
 
@@ -53,7 +53,7 @@ std::optional<Position> NearestPlaces::of(const LineOfSight& sight, const Positi
     std::optional<Position> nearest;
     double shortest = distance;
     for (int index = 0; index < kDirections; ++index) {
-      if (tests_ >= most || is_over_) return std::nullopt;
+      if (tests_ >= most || stride_.met()) return std::nullopt;
       if (!fits(sight, from + distance * direction(index), radius)) continue;
       double open = distance;
       double closed = below;

@@ -15,6 +15,8 @@ class NearestPlaces {
  public:
   /// `origin` is that of the map in the world, where the coordinates that are found have few decimals.
   NearestPlaces(const Position& origin, const StopCondition& stop) : origin_(origin), stop_(stop) {}
+  NearestPlaces(const NearestPlaces&) = delete;
+  NearestPlaces& operator=(const NearestPlaces&) = delete;
 
   /// Returns a place where the disk fits, the nearest one to within 2 %, or 1 cm for the sake of fewer
   /// decimals. The disk overlaps obstacles by `overlap` (metres, > 0) at `from`, and no place is nearer than
@@ -22,14 +24,16 @@ class NearestPlaces {
   std::optional<Position> of(const LineOfSight& sight, const Position& from, double radius, double overlap);
 
  private:
+  static constexpr std::size_t kTestsBetweenPolls = 32;
+
   bool fits(const LineOfSight& sight, const Position& place, double radius);
   std::optional<Position> with_few_decimals(const LineOfSight& sight, const Position& from,
                                             const Position& place, double radius);
 
   Position origin_;
-  StopCondition stop_;
+  const StopCondition stop_;
+  StopStride stride_{stop_, kTestsBetweenPolls};
   std::size_t tests_ = 0;
-  bool is_over_ = false;
 };
 
 }  // namespace fleetplan::core

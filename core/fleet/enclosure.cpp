@@ -24,7 +24,7 @@ constexpr std::int64_t kMaxFloods = 24;
 constexpr std::size_t kWorkOfCovering = 16;
 /// Steps, and disks and cells that they look at, between two questions of the stop condition: about a
 /// millisecond.
-constexpr std::int64_t kWorkBetweenStops = 1 << 15;
+constexpr std::size_t kWorkBetweenPolls = 1 << 15;
 
 /// A step to a neighbour of a cell.
 struct Step {
@@ -60,7 +60,7 @@ Enclosure::Enclosure(const Instance& instance, std::size_t robot, const std::vec
       grid_(instance.problem().grid()),
       robot_(robot),
       clearance_(required_clearance()),
-      stop_(stop) {
+      stride_(stop, kWorkBetweenPolls) {
   const Itinerary& itinerary = instance.itinerary(robot);
   const Position& start = itinerary.pose.position;
   for (const std::size_t other : staying) {
@@ -94,7 +94,8 @@ Enclosure::Result Enclosure::find(std::int64_t max_steps) {
   Flood last = flood(max_steps);
   if (last.answer != Answer::closed) return {last.answer, {}};
   std::vector<Disk*> removed;
-  // Bounded: each robot is removed once, and each flood ends after max_steps or when `stop_` is met.
+  // Bounded: each robot is removed once, and each flood ends after max_steps or when the stop condition is
+  // met.
   while (last.answer == Answer::closed) {
     const std::vector<Disk*>& closing = last.closing[last.closed_side];
     if (closing.empty()) return {Answer::closed, {}};
@@ -112,7 +113,7 @@ std::optional<double> Enclosure::widest_way(double limit, std::int64_t max_steps
   if (flood(max_steps).answer != Answer::open) return std::nullopt;
   double open = needed;
   double closed = std::max(needed, 0.5 * limit);
-  while (closed - open > kGapAccuracy && !is_over_) {
+  while (closed - open > kGapAccuracy && !stride_.met()) {
     clearance_ = 0.5 * (open + closed);
     (flood(max_steps).answer == Answer::open ? open : closed) = clearance_;
   }
@@ -180,8 +181,9 @@ std::vector<std::size_t> Enclosure::necessary(const std::vector<Disk*>& removed,
   std::int64_t floods = 0;
   for (Disk* disk : removed) {
     disk->removed = false;
-    const bool is_closed = is_over_ || ++floods > kMaxFloods || flood(max_steps).answer == Answer::closed;
-    if (!is_closed && !is_over_) continue;
+    const bool is_closed =
+        stride_.met() || ++floods > kMaxFloods || flood(max_steps).answer == Answer::closed;
+    if (!is_closed && !stride_.met()) continue;
     disk->removed = true;
     robots.push_back(disk->robot);
   }
@@ -200,7 +202,7 @@ Enclosure::Flood Enclosure::flood(std::int64_t max_steps) {
     flood.cells[side].push_back(begins[side]);
   }
   if (begins[0] == begins[1]) flood.answer = Answer::open;
-  // Bounded: max_steps, and `stop_`.
+  // Bounded: max_steps, and the stop condition.
   while (flood.answer == Answer::unknown && steps_ <= max_steps && !is_over()) {
     for (std::size_t side = 0; side < Flood::kSides.size() && flood.answer == Answer::unknown; ++side) {
       expand(flood, side);
@@ -213,12 +215,7 @@ Enclosure::Flood Enclosure::flood(std::int64_t max_steps) {
 }
 
 /// Whether the stop condition was met; asks it once in a while.
-bool Enclosure::is_over() {
-  if (work_ < kWorkBetweenStops) return is_over_;
-  work_ = 0;
-  is_over_ = is_over_ || stop_.met();
-  return is_over_;
-}
+bool Enclosure::is_over() { return stride_.met_after(std::exchange(work_, 0)); }
 
 /// Reaches the neighbours of one cell.
 void Enclosure::expand(Flood& flood, std::size_t side) {
@@ -284,7 +281,7 @@ std::vector<Enclosure::Disk*> Enclosure::disks_near(const Border& border) {
     const double away = std::max({border.begin.y() - disk->center.y(), disk->center.y() - end.y(), 0.0});
     if (!disk->removed && away < disk->reach) near.push_back(&*disk);
   }
-  work_ += (disk - first) + static_cast<std::int64_t>(kWorkOfCovering * near.size());
+  work_ += static_cast<std::size_t>(disk - first) + kWorkOfCovering * near.size();
   return near;
 }
 
@@ -297,7 +294,7 @@ std::pair<Cell, Cell> Enclosure::cells_near(const Border& border) {
   const std::int64_t cells =
       static_cast<std::int64_t>(high.column - low.column + 1) * (high.row - low.row + 1);
   steps_ += cells / kCellsPerStep;
-  work_ += cells;
+  work_ += static_cast<std::size_t>(cells);
   return {low, high};
 }
 

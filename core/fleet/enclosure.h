@@ -95,9 +95,8 @@ class Enclosure {
   std::vector<Disk> disks_;       // by abscissa
   std::vector<Covered> covered_;  // the covered parts of the border that is examined
   std::int64_t steps_ = 0;        // steps of the present flood
-  const StopCondition& stop_;
-  std::int64_t work_ = 0;  // steps, disks and cells since the stop condition was asked
-  bool is_over_ = false;   // it was met
+  StopStride stride_;
+  std::size_t work_ = 0;  // steps, disks and cells that it has not counted yet
 };
 
 }  // namespace fleetplan::core

@@ -54,9 +54,10 @@ void StaticWays::find_way(std::size_t robot, std::int64_t max_expansions, const 
   SearchSpace* space = memory_.space_of(robot, stop);
   if (space == nullptr) return;
   std::int64_t left = max_expansions;
+  StopStride stride(stop, kGoalsBetweenPolls);
   for (std::size_t goal = 0; goal < space->goal_count(); ++goal) {
     ways_[robot] = {};
-    if (goal % kGoalsBetweenPolls == kGoalsBetweenPolls - 1 && stop.met()) break;
+    if (stride.met_at_step()) break;
     left -= find_leg(robot, *space, goal, left, stop);
     if (ways_[robot].kind != Way::Kind::on_lattice) break;
   }

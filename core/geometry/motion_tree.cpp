@@ -67,12 +67,14 @@ std::optional<std::vector<MotionTree::Piece>> MotionTree::pieces(const Extent& e
   const double length = std::max(std::max(extent.width, extent.height) / kPiecesAcross, total / kMorePieces);
   const double t_last = last_time(disks_);
   std::vector<Piece> all;
+  StopStride disks = StopStride::from_first(stop, kStopStride);
   for (std::size_t i = 0; i < disks_.size(); ++i) {
-    if (i % kStopStride == 0 && stop.met()) return std::nullopt;
+    if (disks.met_at_step()) return std::nullopt;
     const auto parts = static_cast<std::uint32_t>(std::ceil(length_of(disks_[i].motion) / length));
     Piece piece{0, static_cast<std::uint32_t>(i), 0, std::max(parts, 1U)};
+    StopStride parts_of_disk(stop, kStopStride);
     for (; piece.part < piece.parts; ++piece.part) {
-      if (piece.part % kStopStride == kStopStride - 1 && stop.met()) return std::nullopt;
+      if (parts_of_disk.met_at_step()) return std::nullopt;
       const MotionBox b = box(piece);
       if (b.low.x() > extent.width + extent.radius || b.low.y() > extent.height + extent.radius ||
           b.high.x() < -extent.radius || b.high.y() < -extent.radius)
@@ -111,8 +113,9 @@ bool MotionTree::build(const std::vector<Piece>& pieces, const StopCondition& st
   if (pieces.empty()) return true;
   leaves_.reserve(pieces.size());
   levels_.emplace_back((pieces.size() + kFanOut - 1) / kFanOut);
+  StopStride stride = StopStride::from_first(stop, kStopStride);
   for (std::size_t k = 0; k < pieces.size(); ++k) {
-    if (k % kStopStride == 0 && stop.met()) return false;
+    if (stride.met_at_step()) return false;
     leaves_.push_back(pieces[k].disk);
     levels_[0][k / kFanOut].add(box(pieces[k]));
   }

@@ -96,9 +96,9 @@ Workspace::Workspace(const Instance& instance, const PlanOptions& options, const
 
 bool Workspace::follow_incumbent(const StopCondition& stop) {
   constexpr std::size_t kRobotsBetweenPolls = 8;
-  std::size_t count = 0;
+  StopStride stride(stop, kRobotsBetweenPolls);
   for (const std::size_t robot : incumbent_.followers()) {
-    if (++count % kRobotsBetweenPolls == 0 && stop.met()) return false;
+    if (stride.met_at_step()) return false;
     state_->reservations().follow(robot, incumbent_.trajectory(robot));
     versions_[robot] = incumbent_.version(robot);
   }

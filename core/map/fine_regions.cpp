@@ -137,8 +137,8 @@ constexpr unsigned kLeastSide = 8;
 /// The longest way of a node to its vertex, in spacings, along steps between nodes.
 constexpr double kFarthest = 2.5;
 /// Nodes between two checks of the stop condition; fewer where each of them takes long.
-constexpr int kBlocksBetweenPolls = 1024;
-constexpr int kCostlyStopStride = 4;
+constexpr std::size_t kBlocksBetweenPolls = 1024;
+constexpr std::size_t kCostlyStopStride = 4;
 
 }  // namespace
 

@@ -83,8 +83,9 @@ LineOfSight::Cells::Cells(const OccupancyGrid& grid, const StopCondition& stop)
       blocked_squares(static_cast<std::size_t>(bands(grid.rows())) *
                       static_cast<std::size_t>(bands(grid.columns()))) {
   if (!distances.finished()) return;
+  StopStride stride = StopStride::from_first(stop, kBand);
   for (int row = 0; row < grid.rows(); ++row) {
-    if (row % kBand == 0 && stop.met()) return;
+    if (stride.met_at_step()) return;
     std::uint64_t* band =
         &blocked[static_cast<std::size_t>(row / kBand) * static_cast<std::size_t>(grid.columns())];
     for (int column = 0; column < grid.columns(); ++column) {

@@ -80,7 +80,7 @@ namespace {
 
 constexpr std::uint16_t kMost = 255;
 /// Rows between two checks of the stop condition.
-constexpr int kStopStride = 16;
+constexpr std::size_t kStopStride = 16;
 
 /// The lower envelope of the parabolas of one row. Places are columns + 1, so that 0 and the last are outside
 /// the map.

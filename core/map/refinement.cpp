@@ -44,8 +44,8 @@ constexpr double kTurnAtCorner = 0.25 * std::numbers::pi;
 /// The side of a square, in radii, of whose vertices at corners one suffices.
 constexpr double kCornerSize = 0.35;
 /// Nodes, corners, links or bridges between two checks of the stop condition; fewer where each takes long.
-constexpr int kNodesBetweenPolls = 64;
-constexpr int kCostlyNodesBetweenPolls = 2;
+constexpr std::size_t kNodesBetweenPolls = 64;
+constexpr std::size_t kCostlyNodesBetweenPolls = 2;
 
 bool is_coarse(const OccupancyGrid& grid, const Lattice& lattice) {
   return lattice.spacing() > kCoarseCells * grid.resolution();

@@ -337,8 +337,9 @@ class FaultSearch {
     check(robot.start.position, overlap > 0.0 ? std::max(radius - overlap, kSmallestDisk * radius) : radius,
           {ProblemFault::Kind::start_in_obstacle, index, 0, 0.0, 0, 0.0, robot.radius});
     double arrives = robot.radius;
+    StopStride stride(stop_, kGoalsBetweenPolls);
     for (std::size_t k = 0; k < robot.goal_count(); ++k) {
-      if (k % kGoalsBetweenPolls == kGoalsBetweenPolls - 1 && stop_.met()) {
+      if (stride.met_at_step()) {
         faults_.finished = false;
         return;
       }

@@ -101,7 +101,7 @@ namespace {
 
 constexpr int kConnectivity = 8;
 /// Expansions between two checks of the stop condition.
-constexpr int kStopStride = 64;
+constexpr std::size_t kStopStride = 64;
 /// The start is joined to vertices within this distance, in lattice spacings.
 constexpr double kLinkDistance = 2.0;
 
@@ -126,8 +126,9 @@ class WayOutSearch {
   /// `least`: the radius of the disk where it begins, if walls leave it no more.
   std::vector<Position> find(const Position& from, double least, const MayEnd& may_end) {
     begin(from, std::min(least, radius_));
-    for (int step = 1; !open_.empty(); ++step) {
-      if (step % kStopStride == 0 && stop_.met()) return {};
+    StopStride stride(stop_, kStopStride);
+    while (!open_.empty()) {
+      if (stride.met_at_step()) return {};
       const auto [length, vertex] = open_.top();
       open_.pop();
       Node& node = node_of(vertex);

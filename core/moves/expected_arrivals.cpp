@@ -29,8 +29,8 @@ constexpr double kWeight = 1.1;
 /// Expansions of these searches for each robot, on average: halls with 300 robots take less. No more ways are
 /// chosen after that.
 constexpr std::int64_t kMaxExpansions = 400;
-/// Expansions of one search, or passages, between two checks of the stop condition.
-constexpr int kStopStride = 64;
+/// Expansions or passages between two checks of the stop condition.
+constexpr std::size_t kStopStride = 64;
 /// Rank by which a robot is behind those who pass its goal, and how often ranks are raised because of others
 /// whose ranks were raised. Robots that wait for each other never come to an end.
 constexpr double kBehind = 1e-6;
@@ -237,7 +237,7 @@ class ExpectedArrivals {
     const std::vector<Passage> before = std::exchange(expected.passages, {});
     double t = space->t_begin();
     for (std::size_t stage = 0; stage < space->goal_count() && !space->goal(stage).anywhere; ++stage) {
-      if (!search(robot, *space, stage, t, stop)) {
+      if (!search(robot, *space, stage, t, stop, stride)) {
         expected.passages = before;
         return !stop.met() && expansions_left_ > 0;
       }
@@ -282,8 +282,8 @@ class ExpectedArrivals {
 
   /// Searches the way of one stage from `t` (seconds) on, and notes which goals it passes (A*; Hart, Nilsson
   /// and Raphael, 1968). Returns false if it finds none, or if `stop` is met first.
-  bool search(std::size_t robot, SearchSpace& space, std::size_t stage, double& t,
-              const StopCondition& stop) {
+  bool search(std::size_t robot, SearchSpace& space, std::size_t stage, double& t, const StopCondition& stop,
+              StopStride& stride) {
     const Vertices& vertices = space.vertices(stage);
     const int start = space.begin_of(stage);
     const int goal = space.goal_pose(stage).vertex;
@@ -294,7 +294,7 @@ class ExpectedArrivals {
     label(start) = {0.0, t, -1, false};
     open.emplace(0.0, start);
     for (; !open.empty() && open.top().second != goal; --expansions_left_) {
-      if (expansions_left_ <= 0 || (expansions_left_ % kStopStride == 0 && stop.met())) return false;
+      if (expansions_left_ <= 0 || stride.met_at_step()) return false;
       const int here = open.top().second;
       open.pop();
       if (std::exchange(label(here).closed, true)) continue;

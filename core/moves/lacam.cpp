@@ -113,8 +113,8 @@ StepCosts against_traffic(const StepProblem& problem, const StepDistances& alone
   }
   StepCosts costs = even;
   for (const StepProblem::Neighbours& graph : problem.graphs) {
-    for (std::size_t vertex = 0; vertex < graph.size(); ++vertex) {
-      if (vertex % StepProblem::kVerticesBetweenPolls == 0 && stop.met()) break;
+    StopStride stride = StopStride::from_first(stop, StepProblem::kVerticesBetweenPolls);
+    for (std::size_t vertex = 0; vertex < graph.size() && !stride.met_at_step(); ++vertex) {
       for (std::size_t direction = 0; direction < 4; ++direction) {
         const int next = graph[vertex][direction];
         if (next == StepProblem::kNone) continue;

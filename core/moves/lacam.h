@@ -16,7 +16,7 @@ struct StepProblem {
   /// Robots times vertices: with more, the distances to all goals take too much memory.
   static constexpr std::size_t kMostDistances = 20'000'000;
   /// Vertices between two checks of the stop condition.
-  static constexpr int kVerticesBetweenPolls = 4096;
+  static constexpr std::size_t kVerticesBetweenPolls = 4096;
   /// By vertex and direction, the vertices that one step reaches, or kNone. The step back from there has the
   /// other direction of two: 0 and 1, or 2 and 3.
   using Neighbours = std::vector<std::array<int, 4>>;

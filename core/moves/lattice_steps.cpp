@@ -101,8 +101,8 @@ class StepGraph {
                                      const StopCondition& stop) const {
     StepProblem::Neighbours all(
         taken_.size(), {StepProblem::kNone, StepProblem::kNone, StepProblem::kNone, StepProblem::kNone});
-    for (int vertex = 0; vertex < lattice.vertex_count(); ++vertex) {
-      if (vertex % StepProblem::kVerticesBetweenPolls == 0 && stop.met()) break;
+    StopStride stride = StopStride::from_first(stop, StepProblem::kVerticesBetweenPolls);
+    for (int vertex = 0; vertex < lattice.vertex_count() && !stride.met_at_step(); ++vertex) {
       if (taken_[static_cast<std::size_t>(vertex)]) continue;
       std::uint32_t mask = space.steps_from(vertex);
       // Bounded: the steps of a lattice, at most 32.

@@ -121,25 +121,38 @@ inline StopCondition after_share(const StopCondition& stop, double share) {
   return stop.until(now + remaining);
 }
 
-/// Asks a stop condition once in so many steps of a computation. Stays met once it is met.
+/// Asks a stop condition, which outlives it, once in so many steps of a computation: the one way to ask in
+/// short steps, which tests/architecture demands. Stays met once it is met.
 class StopStride {
  public:
-  StopStride(StopCondition stop, int stride) : stop_(std::move(stop)), stride_(stride), left_(stride) {}
+  /// Asks at the step that completes `stride` steps, and then once in so many.
+  StopStride(const StopCondition& stop, std::size_t stride) : stop_(&stop), stride_(stride) {}
+  StopStride(const StopCondition&& stop, std::size_t stride) = delete;
+  /// Asks at the first step already, and then once in `stride` steps.
+  static StopStride from_first(const StopCondition& stop, std::size_t stride) {
+    StopStride first(stop, stride);
+    first.done_ = stride - 1;
+    return first;
+  }
+  static StopStride from_first(const StopCondition&& stop, std::size_t stride) = delete;
 
   /// To be called at every step.
-  bool met_at_step() {
-    if (--left_ > 0) return met_;
-    left_ = stride_;
-    met_ = met_ || stop_.met();
+  bool met_at_step() { return met_after(1); }
+  /// To be called at a step that counts as so many.
+  bool met_after(std::size_t steps) {
+    done_ += steps;
+    if (done_ < stride_) return met_;
+    done_ = 0;
+    met_ = met_ || stop_->met();
     return met_;
   }
   /// Whether it was met at a step before.
   bool met() const { return met_; }
 
  private:
-  StopCondition stop_;
-  int stride_;
-  int left_;  // steps until it asks
+  const StopCondition* stop_;
+  std::size_t stride_;
+  std::size_t done_ = 0;  // steps since it asked
   bool met_ = false;
 };
 

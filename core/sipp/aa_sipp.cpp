@@ -13,9 +13,9 @@ namespace fleetplan::core {
 namespace {
 
 /// Loop steps between two checks of the stop condition.
-constexpr int kStopStride = 32;
+constexpr std::size_t kStopStride = 32;
 /// Goals whose services are looked for between two checks of the stop condition.
-constexpr int kServicesBetweenPolls = 64;
+constexpr std::size_t kServicesBetweenPolls = 64;
 /// How much faster the accepted suboptimality grows for a path that stops at the horizon: that is tried again
 /// by the next request anyway.
 constexpr double kRestGrowth = 10.0;
@@ -195,12 +195,13 @@ class Search {
 Search::Outcome Search::run(Pass pass) {
   if (!begin(pass)) return stopped_ ? Outcome::stopped : Outcome::exhausted;
   label_start();
-  for (int step = 1; !end_.is_found(); ++step) {
+  StopStride stride(stop_, has_slow_queries_ ? 1 : kStopStride);
+  while (!end_.is_found()) {
     if (state_.open.empty()) {
       if (end_.rest()) break;
       return dominated_.may_be_kept() ? Outcome::incomplete : Outcome::exhausted;
     }
-    if ((step % kStopStride == 0 || has_slow_queries_) && stop_.met()) return Outcome::stopped;
+    if (stride.met_at_step()) return Outcome::stopped;
     if (expansions_ >= next_check_) {
       if (expansions_ >= limits_.max_expansions) {
         if (end_.rest()) break;
@@ -246,8 +247,9 @@ bool Search::begin(Pass pass) {
 
 /// Whether each goal before the last one is free for long enough, at some time.
 bool Search::can_serve_all() {
+  StopStride stride(stop_, kServicesBetweenPolls);
   for (int k = 0; k < goals_.last_stage(); ++k) {
-    stopped_ = k % kServicesBetweenPolls == kServicesBetweenPolls - 1 && stop_.met();
+    stopped_ = stride.met_at_step();
     if (stopped_ || !goals_.can_serve(k, state_.places[successors_.goal_of(k)])) return false;
   }
   return true;

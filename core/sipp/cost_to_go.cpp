@@ -12,8 +12,8 @@ namespace fleetplan::core {
 namespace {
 
 /// Expansions between two checks of the stop condition, of each search.
-constexpr int kStopStride = 64;
-constexpr std::int64_t kTimesStopStride = 256;
+constexpr std::size_t kStopStride = 64;
+constexpr std::size_t kTimesStopStride = 256;
 /// The share, of what any-angle moves shorten lattice moves at most, that is expected. With none, ways cost
 /// up to 0.3 % more in offices; with all of it, the search takes more than twice as many expansions.
 constexpr double kShortened = 0.25;
@@ -29,9 +29,10 @@ TimesFromStart::TimesFromStart(const Vertices& vertices, int start, int goal)
 }
 
 std::optional<bool> TimesFromStart::reach_goal(std::int64_t max_expansions, const StopCondition& stop) {
+  StopStride stride = StopStride::from_first(stop, kTimesStopStride);
   for (std::int64_t count = 0; !reached_goal_; ++count) {
     if (open_.empty()) return false;
-    if (count >= max_expansions || (count % kTimesStopStride == 0 && stop.met())) return std::nullopt;
+    if (count >= max_expansions || stride.met_at_step()) return std::nullopt;
     ++expansions_;
     const Open best = open_.pop();
     if (best.seconds > time(best.vertex)) continue;
@@ -123,9 +124,10 @@ class CostToGo::BackwardSearch {
     if (!has_begun_) return std::nullopt;
     const Node& n = node(vertex);
     const std::int64_t last = expansions_ + max_expansions;
+    StopStride stride = StopStride::from_first(stop, kStopStride);
     while (n.state != State::closed) {
       if (open_.empty()) return false;
-      if (expansions_ >= last || (expansions_ % kStopStride == 0 && stop.met())) return std::nullopt;
+      if (expansions_ >= last || stride.met_at_step()) return std::nullopt;
       expand_best();
     }
     return n.seconds < kForever;
@@ -223,9 +225,9 @@ class CostToGo::BackwardSearch {
 bool CostToGo::BackwardSearch::settle(int vertex, const StopCondition& stop) {
   begin(stop);
   const Node& n = node(vertex);
-  for (int step = 0; n.state != State::closed; ++step) {
-    if (open_.empty()) return false;
-    if (step % kStopStride == kStopStride - 1 && stop.met()) return false;
+  StopStride stride(stop, kStopStride);
+  while (n.state != State::closed) {
+    if (open_.empty() || stride.met_at_step()) return false;
     expand_best();
   }
   return true;

@@ -13,7 +13,7 @@ namespace fleetplan::core {
 namespace {
 
 /// Ways that are estimated between two checks of the stop condition.
-constexpr int kGoalsBetweenPolls = 16;
+constexpr std::size_t kGoalsBetweenPolls = 16;
 /// Seconds; far more than the tolerances of times and headings with which a rest counts as a service.
 constexpr double kClearlyBefore = 1e-3;
 
@@ -42,8 +42,9 @@ Stage stage_at(const SearchSpace& space, std::size_t index) {
 IndexedVector<Stage> stages_of(SearchSpace& space, const StopCondition& stop) {
   IndexedVector<Stage> stages(space.goal_count());
   const int last = static_cast<int>(space.goal_count()) - 1;
+  StopStride stride(stop, kGoalsBetweenPolls);
   for (int k = last; k >= 0; --k) {
-    if ((last - k) % kGoalsBetweenPolls == kGoalsBetweenPolls - 1 && stop.met()) return {};
+    if (stride.met_at_step()) return {};
     const auto index = static_cast<std::size_t>(k);
     const Goal& goal = space.goal(index);
     stages[k] = stage_at(space, index);

@@ -12,15 +12,16 @@ namespace fleetplan::core {
 namespace {
 
 /// Stops between two checks of the stop condition, where queries are quick.
-constexpr int kStopsBetweenPolls = 16;
+constexpr std::size_t kStopsBetweenPolls = 16;
 
 }  // namespace
 
 TimedPath::TimedPath(const Instance& instance, const ReservationTable& table, std::size_t robot,
                      const StopCondition& stop)
     : table_(table),
-      stop_(stop,
-            table.is_costly() || instance.body(robot).linear_inertia.is_limited ? 1 : kStopsBetweenPolls),
+      stop_(stop),
+      stride_(stop_,
+              table.is_costly() || instance.body(robot).linear_inertia.is_limited ? 1 : kStopsBetweenPolls),
       robot_(robot),
       view_(instance.views(robot)[0]),
       itinerary_(instance.itinerary(robot)),
@@ -178,7 +179,7 @@ void TimedPath::begin(Stop& stop) const {
 /// Finds the earliest arrivals at a stop from which the path can end before `bound`. Returns whether there
 /// are any.
 bool TimedPath::arrive(const Stop& from, Stop& to, double bound) {
-  if (stop_.met_at_step()) return false;
+  if (stride_.met_at_step()) return false;
   const Segment way{from.position, to.position};
   const double preparation = this->preparation(from, to);
   to.arrivals.clear();

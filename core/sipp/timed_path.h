@@ -34,6 +34,8 @@ class TimedPath {
   /// arguments outlive this object.
   TimedPath(const Instance& instance, const ReservationTable& table, std::size_t robot,
             const StopCondition& stop);
+  TimedPath(const TimedPath&) = delete;
+  TimedPath& operator=(const TimedPath&) = delete;
 
   /// Takes the path of a trajectory of the robot. Returns false if it cannot be followed as fast, or is none
   /// of those that can be timed.
@@ -96,7 +98,8 @@ class TimedPath {
   Trajectory trajectory_of(const std::vector<Stop>& stops) const;
 
   const ReservationTable& table_;
-  StopStride stop_;  // asked at every stop, or at some of them
+  const StopCondition stop_;
+  StopStride stride_;  // asks stop_ at every stop, or at some of them
   const std::size_t robot_;
   const View& view_;
   const Itinerary& itinerary_;

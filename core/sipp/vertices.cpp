@@ -214,15 +214,11 @@ Vertices::Vertices(const Instance& instance, std::size_t robot, const Itinerary&
   if (views.number(0) == own) start_ = own_.add_start(robot);
   // Committed actions that end in contact with the goal end there: a service goes on, without a move.
   double same = itinerary.is_committed ? kContactTolerance : kSamePosition;
-  std::size_t work = 0;  // since the last check
+  StopStride stride(stop, kWorkBetweenPolls);
   for (std::size_t k = 0; k < itinerary.goals.size(); ++k) {
-    work += work_to_add_to(own_);
-    if (work >= kWorkBetweenPolls) {
-      work = 0;
-      if (stop.met()) {
-        finished_ = false;
-        return;
-      }
+    if (stride.met_after(work_to_add_to(own_))) {
+      finished_ = false;
+      return;
     }
     const Goal& goal = itinerary.goals[k];
     if (goal.anywhere) {  // wherever the robot comes to this stage

@@ -238,6 +238,31 @@ TEST(SourceRules, RejectStopConditionsThatKnowNothingOfTheRequest) {
   EXPECT_THAT(violations("core/a.cpp", "const auto last = stop.even_if_cancelled(t);\n"), IsEmpty());
 }
 
+TEST(SourceRules, RejectCountersBetweenQuestionsOfStopConditions) {
+  for (const std::string poll :
+       {"if (++steps % kN == 0 && stop.met()) return;", "if (k % kN == kN - 1 && stop_->met()) return;",
+        "if (++steps_ % kN == 0) stopped_ = stopped_ || stop_.met();",
+        "if (k % kN == 0) { if (stop.met()) return; }",
+        "const auto goes_on = [&] { return ++n % kN != 0 || !stop.met(); };",
+        "if (work >= kN) { work = 0; if (stop.met()) return; }",
+        "if (work >= kN) { if (stop.met()) return; work = 0; }",
+        "if (work_ < kN) return over_; work_ = 0; over_ = over_ || stop_.met();",
+        "const bool asks = steps == kStepsBetweenPolls; if (asks && stop.met()) return;",
+        "left = kStopStride; g(stop);"}) {
+    for (const std::string file : {"core/a.cpp", "api/a.cpp", "library/a.cpp"}) {
+      EXPECT_THAT(violations(file, "void f() { " + poll + " }\n"), ElementsAre(HasSubstr("StopStride")))
+          << poll;
+    }
+    EXPECT_THAT(violations("tests/a.cpp", "void f() { " + poll + " }\n"), IsEmpty());
+  }
+  for (const std::string poll :
+       {"StopStride stride(stop, is_slow ? 1 : kStepsBetweenPolls); if (stride.met_at_step()) return;",
+        "constexpr int kStopStride = 64; StopStride stride = StopStride::from_first(stop, kStopStride);",
+        "for (int k = 0; k < n && !stop.met(); ++k) g(k % 2);", "int n = 0; if (stop.met()) return;"}) {
+    EXPECT_THAT(violations("core/a.cpp", "void f() { " + poll + " }\n"), IsEmpty()) << poll;
+  }
+}
+
 TEST(SourceRules, RejectLoopsInLoopsThatNothingBounds) {
   const auto loops_of = [](const std::string& function) {
     return violations("core/a.cpp", "namespace a {\nclass B {\n" + function + "};\n}\n");
@@ -259,6 +284,9 @@ TEST(SourceRules, RejectLoopsInLoopsThatNothingBounds) {
   EXPECT_THAT(
       loops_of("int f() {\n  for (int i : all) {\n    if (stop_.met()) break;\n    while (b) c();\n  }\n}\n"),
       IsEmpty());
+  EXPECT_THAT(loops_of("int f() {\n  for (int i : all)\n    while (b && !stride_.met_at_step()) c();\n}\n"),
+              IsEmpty());
+  EXPECT_THAT(loops_of("int f() {\n  for (int i : all)\n    for (;;) h(i * stride_);\n}\n"), SizeIs(1));
   EXPECT_THAT(
       loops_of("int f() {\n  // Bounded: eight neighbours.\n  for (int i : all)\n    for (;;) h();\n}\n"),
       IsEmpty());

@@ -244,6 +244,64 @@ bool makes_a_stop_condition(string_view path, const std::string& code) {
          code.find("Work::unbounded") != std::string::npos || constructs(code, "StopCondition");
 }
 
+/// Whether a piece of code asks a stop condition.
+bool asks_to_stop(string_view code) {
+  return code.find(".met()") != string_view::npos || code.find("->met()") != string_view::npos;
+}
+
+/// The code between any of these characters, without the blanks around it; literals are blanked out.
+std::vector<string_view> pieces_between(string_view code, string_view separators) {
+  std::vector<string_view> pieces;
+  while (!code.empty()) {
+    const std::size_t end = std::min(code.find_first_of(separators), code.size());
+    string_view piece = code.substr(0, end);
+    piece.remove_prefix(std::min(piece.find_first_not_of(" \t\r\n"), piece.size()));
+    piece = piece.substr(0, piece.find_last_not_of(" \t\r\n") + 1);
+    if (!piece.empty()) pieces.push_back(piece);
+    code.remove_prefix(std::min(end + 1, code.size()));
+  }
+  return pieces;
+}
+
+/// Whether this is `counter = 0`.
+bool begins_to_count(string_view statement) {
+  const auto end = std::find_if_not(statement.begin(), statement.end(), identifier_character);
+  return end != statement.begin() && string_view(end, statement.end()) == " = 0";
+}
+
+/// Whether the number of steps between two questions, as such constants are called, is an operand.
+bool computes_with_a_stride(string_view code) {
+  for (const string_view end : {"BetweenPolls", "StopStride"}) {
+    for (std::size_t at = code.find(end); at != string_view::npos; at = code.find(end, at + 1)) {
+      std::size_t begin = at;
+      while (begin > 0 && identifier_character(code[begin - 1])) --begin;
+      if (begin == at || code[begin] != 'k') continue;
+      const std::size_t before = code.find_last_not_of(" \t\r\n", begin - 1);
+      if (before != string_view::npos && string_view("%<>=-").find(code[before]) != string_view::npos)
+        return true;
+    }
+  }
+  return false;
+}
+
+/// Whether a source counts the steps between two questions of a stop condition itself: by a remainder in the
+/// statement that asks, by a counter that begins again beside it, or with a constant that says how many.
+bool counts_between_questions(string_view path, string_view code) {
+  const bool is_of_these =
+      path.starts_with("core/") || path.starts_with("api/") || path.starts_with("library/");
+  if (!is_of_these || path.starts_with("core/runtime/")) return false;
+  const std::vector<string_view> statements = pieces_between(code, ";{}");
+  for (std::size_t k = 1; k < statements.size(); ++k) {
+    if (asks_to_stop(statements[k - 1]) && begins_to_count(statements[k])) return true;
+    if (asks_to_stop(statements[k]) && begins_to_count(statements[k - 1])) return true;
+  }
+  const std::vector<string_view> with_blocks = pieces_between(code, ";}");
+  const bool by_remainder = std::any_of(with_blocks.begin(), with_blocks.end(), [](string_view statement) {
+    return asks_to_stop(statement) && statement.find('%') != string_view::npos;
+  });
+  return by_remainder || computes_with_a_stride(code);
+}
+
 /// Whether a file that has to work with what was compiled reads robots as they were received.
 bool reads_robots(string_view path, const std::string& code) {
   const auto is_of = [&](string_view folder) { return path.starts_with(folder); };
@@ -308,6 +366,9 @@ std::vector<std::string> violations(string_view path, string_view text) {
   }
   if (makes_a_stop_condition(path, code)) {
     report("makes a stop condition of its own: derive it from the request's ", "Work");
+  }
+  if (counts_between_questions(path, code)) {
+    report("counts the steps between two questions of a stop condition: use ", "StopStride");
   }
   if (reads_robots(path, code)) report("reads what was compiled, and not a ", "Robot");
   if (path.starts_with("core/") || path.starts_with("api/")) {

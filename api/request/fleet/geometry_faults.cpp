@@ -83,9 +83,9 @@ class Trial {
       : fleet_(fleet), indices_(indices), map_(map), stop_(stop) {}
 
   bool all_fit(bool mirrored, double radius_factor) {
-    std::size_t looks = 0;
+    core::StopStride stride(stop_, kPosesBetweenPolls);
     const auto fits = [&](const JsonReader& pose, double radius) {
-      if (++looks % kPosesBetweenPolls == 0 && stop_.met()) return false;
+      if (stride.met_at_step()) return false;
       const auto world = position_of(pose);
       if (!world) return true;  // has a fault of its own
       Position position = fleet_.map->frame.to_map(*world);

@@ -23,7 +23,7 @@ std::uint64_t mixed(std::uint64_t bits) {
 class Draw {
  public:
   Draw(const Disturbance& disturbance, std::uint64_t seed, std::uint64_t run, const StopCondition& stop)
-      : disturbance_(disturbance), random_(mixed(mixed(seed) + run)), stop_(stop) {}
+      : disturbance_(disturbance), random_(mixed(mixed(seed) + run)), stride_(stop, kDrawsBetweenPolls) {}
 
   DisturbedActions actions(const std::vector<Action>& planned) {
     DisturbedActions drawn;
@@ -42,17 +42,17 @@ class Draw {
       }
       of.halts.end = drawn.all_halts.size();
       of.offsets.end = drawn.all_offsets.size();
-      if (stopped_) break;
+      if (stopped()) break;
     }
     return drawn;
   }
 
-  bool stopped() const { return stopped_; }
+  bool stopped() const { return stride_.met(); }
 
  private:
   /// Draws a number from [0, 1); looks at the stop condition once in many draws.
   double unit() {
-    if (++draws_ % kDrawsBetweenPolls == 0) stopped_ = stopped_ || stop_.met();
+    stride_.met_at_step();
     return random_.unit();
   }
 
@@ -72,7 +72,7 @@ class Draw {
     const Disturbance::Stops& stops = disturbance_.stops;
     if (stops.rate_per_hour <= 0.0 || stops.mean_s <= 0.0) return;
     const double mean_gap = kSecondsPerHour / stops.rate_per_hour;
-    for (double at = exponential(mean_gap); at < moving && !stopped_; at += exponential(mean_gap)) {
+    for (double at = exponential(mean_gap); at < moving && !stopped(); at += exponential(mean_gap)) {
       halts.push_back({at, exponential(stops.mean_s)});
     }
   }
@@ -80,16 +80,14 @@ class Draw {
   void add_offsets(double length, std::vector<double>& offsets) {
     if (!disturbance_.leaves_paths()) return;
     const double knots = std::round(length / disturbance_.cross_track.correlation_length);
-    for (double knot = 0.0; knot < knots && !stopped_; knot += 1.0) {
+    for (double knot = 0.0; knot < knots && !stopped(); knot += 1.0) {
       offsets.push_back(disturbance_.cross_track.sigma * normal());
     }
   }
 
   const Disturbance& disturbance_;
   Random random_;
-  const StopCondition& stop_;
-  std::size_t draws_ = 0;
-  bool stopped_ = false;
+  StopStride stride_;
 };
 
 }  // namespace
@@ -110,13 +108,14 @@ std::optional<std::vector<DisturbedActions>> draw_disturbances(const std::vector
 
 std::optional<std::vector<ActionPhase>> moving_phases(const DisturbedActions& disturbed, std::size_t action,
                                                       const StopCondition& stop) {
-  constexpr std::size_t kPhasesBetweenPolls = 1024;
+  constexpr std::size_t kHaltsBetweenPolls = 512;
   const double moving = disturbed.actions[action].moving;
   std::vector<ActionPhase> phases;
   double moved = 0.0;
   double fraction = 0.0;
+  StopStride stride(stop, kHaltsBetweenPolls);
   for (const DisturbedActions::Halt& halt : disturbed.halts(action)) {
-    if ((phases.size() + 2) % kPhasesBetweenPolls == 0 && stop.met()) return std::nullopt;
+    if (stride.met_at_step()) return std::nullopt;
     fraction = halt.after / moving;
     phases.push_back({halt.after - moved, fraction});
     phases.push_back({halt.seconds, fraction});

@@ -46,6 +46,7 @@ class DependentExecution {
       : planned_(planned),
         disturbed_(disturbed),
         stop_(stop),
+        stride_(stop, kStepsBetweenPolls),
         robots_(planned.plans.size()),
         opens_(planned.dependencies.size()),
         waiting_(planned.dependencies.size(), kNobody) {}
@@ -133,12 +134,7 @@ class DependentExecution {
   }
 
   /// Counts steps and looks at the stop condition once in many of them. Returns whether it was met.
-  bool stops_after(std::size_t steps) {
-    steps_ += steps;
-    if (steps_ < kStepsBetweenPolls) return stopped_;
-    steps_ = 0;
-    return stopped_ = stopped_ || stop_.met();
-  }
+  bool stops_after(std::size_t steps) { return stopped_ = stopped_ || stride_.met_after(steps); }
 
   /// Executes a robot until the end of its plan, until a gate that is not known to open, until a drive
   /// begins, or until the stop condition is met.
@@ -355,7 +351,7 @@ class DependentExecution {
   const PlannedExecution& planned_;
   const std::vector<DisturbedActions>& disturbed_;
   const StopCondition& stop_;
-  std::size_t steps_ = 0;  // steps since the last look at the stop condition
+  StopStride stride_;
   bool stopped_ = false;
   std::vector<Robot> robots_;
   std::vector<std::optional<double>> opens_;  // by dependency: when its `until` is reached, if known

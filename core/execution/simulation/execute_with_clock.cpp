@@ -45,8 +45,9 @@ std::optional<std::vector<ClockPhase>> clock_phases(const std::vector<Action>& a
                                                     const StopCondition& stop) {
   using Kind = ClockPhase::Kind;
   std::vector<ClockPhase> phases;
+  StopStride stride = StopStride::from_first(stop, kActionsBetweenPolls);
   for (std::size_t k = 0; k < actions.size(); ++k) {
-    if (k % kActionsBetweenPolls == 0 && stop.met()) return std::nullopt;
+    if (stride.met_at_step()) return std::nullopt;
     const Action& action = actions[k];
     const double begin = action.t_start;
     phases.push_back({.kind = Kind::awaits, .action = k, .from = begin, .to = begin});
@@ -93,13 +94,14 @@ class ClockedExecution {
         disturbed_(disturbed),
         max_delay_(planned.max_delay),
         stop_(stop),
+        stride_(stop, kClockStepsBetweenPolls),
         robots_(planned.plans.size()) {}
 
   std::optional<std::vector<ExecutedProgress>> run() {
     if (!prepare()) return std::nullopt;
     while (true) {
       finish_phases();
-      if (stopped_) return std::nullopt;
+      if (stride_.met()) return std::nullopt;
       if (std::all_of(robots_.begin(), robots_.end(), [](const Robot& robot) { return robot.done(); })) break;
       step();
     }
@@ -140,12 +142,6 @@ class ClockedExecution {
     return true;
   }
 
-  /// Counts a step and looks at the stop condition once in a while. Returns whether it was met.
-  bool stops() {
-    if (++steps_ % kClockStepsBetweenPolls == 0) stopped_ = stopped_ || stop_.met();
-    return stopped_;
-  }
-
   double delay(const Robot& robot) const { return clock_ - robot.at; }
 
   /// Whether the robot holds the clock back: it is as late as allowed and slower than planned.
@@ -169,9 +165,9 @@ class ClockedExecution {
 
   void finish_phases() {
     for (Robot& robot : robots_) {
-      if (stops()) return;
+      if (stride_.met_at_step()) return;
       while (!robot.done()) {
-        if (stops()) return;
+        if (stride_.met_at_step()) return;
         const ClockPhase& phase = robot.now();
         if (!robot.begun) begin(robot, phase);
         if (!is_over(robot)) break;
@@ -253,8 +249,7 @@ class ClockedExecution {
   const std::vector<DisturbedActions>& disturbed_;
   const double max_delay_;
   const StopCondition& stop_;
-  std::size_t steps_ = 0;
-  bool stopped_ = false;
+  StopStride stride_;
   double same_moment_ = kLeastSameMoment;
   double now_ = 0.0;    // seconds
   double clock_ = 0.0;  // planned time

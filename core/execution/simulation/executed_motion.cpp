@@ -83,18 +83,17 @@ double ramp_between(const ExecutionKnot& from, const ExecutionKnot& to, double b
 template <typename Visit>
 bool visit_pieces(const std::vector<Action>& planned, const DisturbedActions& disturbed,
                   const ExecutedProgress& progress, const StopCondition& stop, Visit visit) {
-  std::size_t pieces = 0;
-  const auto goes_on = [&] { return ++pieces % kPiecesBetweenPolls != 0 || !stop.met(); };
+  StopStride stride(stop, kPiecesBetweenPolls);
   for (std::size_t k = 1; k < progress.knots.size(); ++k) {
     const ExecutionKnot& from = progress.knots[k - 1];
     const ExecutionKnot& to = progress.knots[k];
-    if (!goes_on()) return false;
+    if (stride.met_at_step()) return false;
     if (from.action != to.action || (from.t == to.t && from.fraction == to.fraction)) continue;
     const Action& action = planned[from.action];
     const DisturbedPath path(action, disturbed.offsets(from.action));
     ExecutionKnot last = from;
     while (const auto bend = path.next_bend(last.fraction, to.fraction)) {
-      if (!goes_on()) return false;
+      if (stride.met_at_step()) return false;
       const double part = (*bend - from.fraction) / (to.fraction - from.fraction);
       const double elapsed = elapsed_share(part, to.ramp);
       ExecutionKnot at{from.t + elapsed * (to.t - from.t), from.action, *bend};

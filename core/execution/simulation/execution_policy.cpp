@@ -13,8 +13,9 @@ std::optional<ExecutedProgress> execute_alone(const PlannedExecution& planned, s
                                               const DisturbedActions& disturbed, const StopCondition& stop) {
   const std::vector<Action>& actions = planned.plans[plan].actions;
   ProgressBuilder builder;
+  StopStride stride = StopStride::from_first(stop, kPolicyActionsBetweenPolls);
   for (std::size_t k = 0; k < actions.size(); ++k) {
-    if (k % kPolicyActionsBetweenPolls == 0 && stop.met()) return std::nullopt;
+    if (stride.met_at_step()) return std::nullopt;
     const Action& action = actions[k];
     builder.begin_action(k);
     if (!goes_on_at_speed(actions, k)) builder.stand_for(disturbed.actions[k].start_delay);

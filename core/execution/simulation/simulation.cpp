@@ -41,9 +41,9 @@ std::optional<ExecutedCollision> find_wall(const ObstacleField& field, std::size
                                            const StopCondition& stop) {
   const double reach = radius - tolerance;
   if (reach <= 0.0) return std::nullopt;
-  for (std::size_t k = 0; k < legs.size(); ++k) {
-    if (k % kLegsBetweenPolls == 0 && stop.met()) break;
-    const Leg& leg = legs[k];
+  StopStride stride = StopStride::from_first(stop, kLegsBetweenPolls);
+  for (const Leg& leg : legs) {
+    if (stride.met_at_step()) break;
     const auto nearest = field.nearest(leg.from, leg.to, reach);
     if (!nearest) continue;
     const double fraction = nearest->point.fraction;

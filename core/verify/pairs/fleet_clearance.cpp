@@ -146,6 +146,7 @@ class ClearanceSweep {
         boxes_(legs_by_robot, radii.kept_apart),
         overlaps_(max_overlaps),
         stop_(stop),
+        stride_(stop, kStepsBetweenPolls),
         left_out_(left_out),
         slack_(rounding_of_boxes()) {
     for (const std::vector<Leg>& legs : legs_by_robot) rests_.push_back(rests_for_ever(legs));
@@ -156,10 +157,10 @@ class ClearanceSweep {
     least_tolerance_ = *std::min_element(tolerances_.begin(), tolerances_.end());
     const std::vector<double> boundaries = time_windows(legs_);
     for (std::size_t k = 0; k < boundaries.size(); ++k) {
-      if (stop_.met() || stopped_) return std::nullopt;
+      if (stop_.met() || stride_.met()) return std::nullopt;
       sweep({boundaries[k], k + 1 < boundaries.size() ? boundaries[k + 1] : kInfinity});
     }
-    if (stopped_) return std::nullopt;
+    if (stride_.met()) return std::nullopt;
     return FleetClearance{least_, overlaps_.take()};
   }
 
@@ -187,15 +188,10 @@ class ClearanceSweep {
   /// smaller than its own.
   double interesting_gap() const { return std::max(least_, -least_tolerance_) + slack_; }
 
-  /// Looks at the stop condition once in many steps.
-  void poll() {
-    if (++steps_ % kStepsBetweenPolls == 0) stopped_ = stopped_ || stop_.met();
-  }
-
   void sweep(const TimeSpan& window) {
     const std::vector<MovingBox> boxes = boxes_.in(window);
-    for (std::size_t i = 0; i < boxes.size() && !stopped_; ++i) {
-      poll();
+    for (std::size_t i = 0; i < boxes.size() && !stride_.met(); ++i) {
+      stride_.met_at_step();
       const MovingBox& a = boxes[i];
       for (std::size_t j = i + 1; j < boxes.size(); ++j) {
         const MovingBox& b = boxes[j];
@@ -218,7 +214,7 @@ class ClearanceSweep {
 
   /// Compares two robots that rest for ever, once for all windows.
   void compare_at_rest(std::size_t first, std::size_t second) {
-    poll();
+    stride_.met_at_step();
     const Position between = legs_[second].front().from - legs_[first].front().from;
     const double allowed = allowed_distance(first, second);
     const double squared = between.squaredNorm();
@@ -235,12 +231,12 @@ class ClearanceSweep {
     double least_squared = kInfinity;
     visit_common_pieces(boxes_.legs(first), boxes_.legs(second), window, false,
                         [&](const RelativeMotion& motion) {
-                          poll();
+                          stride_.met_at_step();
                           const double squared = least_squared_distance(motion);
                           least_squared = std::min(least_squared, squared);
                           if (allowed > 0.0 && squared < allowed * allowed)
                             overlaps_.add(first, second, motion, allowed);
-                          return !stopped_;
+                          return !stride_.met();
                         });
     least_ = std::min(least_, std::sqrt(least_squared) - (bodies_[first] + bodies_[second]));
   }
@@ -252,10 +248,9 @@ class ClearanceSweep {
   MovingBoxes boxes_;
   OverlapList overlaps_;
   const StopCondition& stop_;
+  StopStride stride_;  // if it is met, a window may be incomplete
   const LeftOutAtRest& left_out_;
   std::vector<bool> rests_;  // by robot: it never moves
-  std::size_t steps_ = 0;
-  bool stopped_ = false;  // if it was stopped, a window may be incomplete
   double slack_;
   double least_tolerance_ = 0.0;
   double least_ = kInfinity;

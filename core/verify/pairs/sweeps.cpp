@@ -174,17 +174,18 @@ class ObstacleSweep {
         robots_(fleet.legs, fleet.radii),
         next_(obstacles.size(), 0),
         overlaps_(max_overlaps),
-        stop_(stop) {}
+        stop_(stop),
+        stride_(stop, kPiecesBetweenPolls) {}
 
   std::optional<std::vector<Overlap>> run() {
     if (obstacles_.empty() || fleet_.size() == 0) return std::vector<Overlap>{};
     const std::vector<double> boundaries = windows();
     for (std::size_t k = 0; k < boundaries.size(); ++k) {
-      if (stop_.met() || stopped_) return std::nullopt;
+      if (stop_.met() || stride_.met()) return std::nullopt;
       compare_in({boundaries[k],
                   k + 1 < boundaries.size() ? boundaries[k + 1] : std::numeric_limits<double>::infinity()});
     }
-    if (stopped_) return std::nullopt;
+    if (stride_.met()) return std::nullopt;
     return overlaps_.take();
   }
 
@@ -218,20 +219,15 @@ class ObstacleSweep {
     if (boxes.empty()) return;
     double widest = 0.0;
     for (const MovingBox& box : boxes) widest = std::max(widest, box.right - box.left);
-    for (std::size_t obstacle = 0; obstacle < obstacles_.size() && !stopped_; ++obstacle) {
+    for (std::size_t obstacle = 0; obstacle < obstacles_.size() && !stride_.met(); ++obstacle) {
       const std::vector<Leg>& legs = obstacles_[obstacle];
       std::size_t& next = next_[obstacle];
       while (next < legs.size() && legs[next].t_end < window.begin) ++next;
-      for (std::size_t k = next; k < legs.size() && legs[k].t_begin <= window.end && poll(); ++k) {
+      for (std::size_t k = next; k < legs.size() && legs[k].t_begin <= window.end && !stride_.met_at_step();
+           ++k) {
         compare(boxes, widest, obstacle, legs[k], window);
       }
     }
-  }
-
-  /// Looks at the stop condition once in many steps. Returns false if it was met.
-  bool poll() {
-    if (++steps_ % kPiecesBetweenPolls == 0) stopped_ = stopped_ || stop_.met();
-    return !stopped_;
   }
 
   void compare(const std::vector<MovingBox>& boxes, double widest, std::size_t obstacle, const Leg& leg,
@@ -258,7 +254,7 @@ class ObstacleSweep {
           if (!is_exempt && least_squared_distance(motion) < allowed * allowed) {
             overlaps_.add(robot, obstacle, motion, allowed);
           }
-          return poll();
+          return !stride_.met_at_step();
         });
   }
 
@@ -270,8 +266,7 @@ class ObstacleSweep {
   std::vector<std::size_t> next_;  // by obstacle, the first leg that does not end before the window
   OverlapList overlaps_;
   const StopCondition& stop_;
-  std::size_t steps_ = 0;
-  bool stopped_ = false;
+  StopStride stride_;
 };
 
 }  // namespace
@@ -335,7 +330,8 @@ class MarginSweep {
         inflation_(inflation),
         left_out_(left_out),
         most_(most),
-        stop_(stop) {}
+        stop_(stop),
+        stride_(stop, kComparisonsBetweenPolls) {}
 
   std::optional<std::vector<ShiftedOverlap>> run() {
     std::vector<double> boundaries = time_windows(fleet_.legs);
@@ -346,11 +342,11 @@ class MarginSweep {
     MovingBoxes boxes(fleet_.legs, std::move(reach));
     // After the last boundary all robots rest, where the rule without a margin is the same.
     for (std::size_t k = 0; k + 1 < boundaries.size(); ++k) {
-      if (stop_.met() || stopped_) return std::nullopt;
+      if (stop_.met() || stride_.met()) return std::nullopt;
       const TimeSpan window{boundaries[k], boundaries[k + 1]};
       sweep(boxes.in({window.begin - margin_, window.end + margin_}), window);
     }
-    if (stopped_) return std::nullopt;
+    if (stride_.met()) return std::nullopt;
     std::vector<ShiftedOverlap> overlaps;
     overlaps.reserve(deepest_.size());
     for (const auto& [pair, overlap] : deepest_) overlaps.push_back(overlap);
@@ -363,8 +359,9 @@ class MarginSweep {
   }
 
   void sweep(const std::vector<MovingBox>& boxes, const TimeSpan& window) {
-    for (std::size_t i = 0; i < boxes.size() && !stopped_; ++i) {
-      for (std::size_t j = i + 1; j < boxes.size() && boxes[j].left <= boxes[i].right && !stopped_; ++j) {
+    for (std::size_t i = 0; i < boxes.size() && !stride_.met(); ++i) {
+      for (std::size_t j = i + 1; j < boxes.size() && boxes[j].left <= boxes[i].right && !stride_.met();
+           ++j) {
         if (fleet_.same_robot(boxes[i].body, boxes[j].body)) continue;
         if (boxes[i].bottom > boxes[j].top || boxes[j].bottom > boxes[i].top) continue;
         compare(std::min(boxes[i].body, boxes[j].body), std::max(boxes[i].body, boxes[j].body), window);
@@ -374,15 +371,15 @@ class MarginSweep {
 
   /// Compares the first robot within the window with the second one up to the margin earlier and later.
   void compare(std::size_t first, std::size_t second, const TimeSpan& window) {
-    poll();
+    stride_.met_at_step();
     const std::vector<Leg>& others = fleet_.legs[second];
     for (auto leg = first_leg_until(fleet_.legs[first], window.begin);
-         leg != fleet_.legs[first].end() && leg->t_begin < window.end && !stopped_; ++leg) {
+         leg != fleet_.legs[first].end() && leg->t_begin < window.end && !stride_.met(); ++leg) {
       const TimeSpan time{std::max(leg->t_begin, window.begin), std::min(leg->t_end, window.end)};
       const Phase phase = phase_of(*leg, fleet_.handovers[first]);
       if (phase == Phase::staying || time.begin >= time.end) continue;
       for (auto other = first_leg_until(others, time.begin - margin_);
-           other != others.end() && other->t_begin <= time.end + margin_ && !stopped_; ++other) {
+           other != others.end() && other->t_begin <= time.end + margin_ && !stride_.met(); ++other) {
         const Phase its_phase = phase_of(*other, fleet_.handovers[second]);
         if (its_phase == Phase::staying || (phase == Phase::committed && its_phase == Phase::committed))
           continue;
@@ -395,7 +392,7 @@ class MarginSweep {
 
   void compare(std::size_t first, const Leg& leg, const TimeSpan& time, std::size_t second, const Leg& other,
                const TimeSpan& its_time) {
-    poll();
+    stride_.met_at_step();
     const double kept = fleet_.kept_distance(first, second, inflation_) -
                         std::max(fleet_.tolerances[first], fleet_.tolerances[second]);
     const auto record = [&](const TimeSpan& a, const TimeSpan& b) {
@@ -421,18 +418,13 @@ class MarginSweep {
     }
   }
 
-  void poll() {
-    if (++steps_ % kComparisonsBetweenPolls == 0) stopped_ = stopped_ || stop_.met();
-  }
-
   const ExecutedFleet& fleet_;
   double margin_;
   double inflation_;
   const TimesLeftOut& left_out_;
   std::size_t most_;
   const StopCondition& stop_;
-  std::size_t steps_ = 0;
-  bool stopped_ = false;
+  StopStride stride_;
   std::map<std::pair<std::size_t, std::size_t>, ShiftedOverlap> deepest_;  // by pair
 };
 

@@ -63,8 +63,8 @@ class MotionCheck {
       : robot_(robot), plan_(plan), loads_(loads), tolerance_(tolerance) {}
 
   ViolationList run(std::size_t given, const StopCondition& stop) {
-    for (std::size_t k = given; k < plan_.actions.size(); ++k) {
-      if (k % kActionsBetweenPolls == 0 && stop.met()) break;
+    StopStride stride = StopStride::from_first(stop, kActionsBetweenPolls);
+    for (std::size_t k = given; k < plan_.actions.size() && !stride.met_at_step(); ++k) {
       check_times(k);
       if (k > 0) check_start_pose(k);
       check_type(k);
@@ -292,8 +292,6 @@ class MotionCheck {
   ViolationList violations_;
 };
 
-constexpr std::size_t kBetweenPolls = 64;
-
 }  // namespace
 
 std::optional<Violation> find_unusable_number(std::size_t index, const Robot& robot, const RobotPlan* plan) {
@@ -338,8 +336,8 @@ ViolationList check_waits(const Robot& robot, const RobotPlan& plan, double wait
   // The time since which the robot stands, and whether it may have stood before t = 0.
   double since = 0.0;
   bool open = !robot.committed.empty() && !actions.empty() && actions.front().type == Action::Type::wait;
-  for (std::size_t k = 0; k < actions.size(); ++k) {
-    if (k % kBetweenPolls == 0 && stop.met()) break;
+  StopStride stride = StopStride::from_first(stop, kActionsBetweenPolls);
+  for (std::size_t k = 0; k < actions.size() && !stride.met_at_step(); ++k) {
     const Action& action = actions[k];
     if (action.type == Action::Type::wait) continue;
     const double stood = action.t_start - since;

@@ -134,8 +134,9 @@ class VisitCheck {
 
   /// Serves one goal after the other, each as early as possible.
   void serve() {
+    StopStride stride = StopStride::from_first(stop_, kRestsBetweenPolls);
     for (std::size_t k = 0; k < rests_.size() && served_.size() < last_goal(); ++k) {
-      if (k % kRestsBetweenPolls == 0 && stop_.met()) return;
+      if (stride.met_at_step()) return;
       const Rest& rest = rests_[k];
       double now = rest.t_begin;
       while (served_.size() < last_goal() && is_in_pose(rest.pose, served_.size())) {
@@ -251,8 +252,9 @@ class VisitCheck {
 
   /// Checks the goals that waits name. Waits that are committed come from the request and are not checked.
   void check_labels() {
+    StopStride stride = StopStride::from_first(stop_, kRestsBetweenPolls);
     for (std::size_t k = robot_.committed.size(); k < plan_.actions.size(); ++k) {
-      if (k % kRestsBetweenPolls == 0 && stop_.met()) return;
+      if (stride.met_at_step()) return;
       const Action& action = plan_.actions[k];
       if (!action.goal || is_true(action)) continue;
       report(action.t_start, static_cast<double>(*action.goal), 0.0,

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "core/runtime/shared_turn.h"
 #include "tests/support/step_limit.h"
 
@@ -35,6 +37,51 @@ TEST(StopCondition, HasItsCpuTimeHoweverLateItIs) {
   EXPECT_FALSE(other.met());
   source.request_stop();
   EXPECT_TRUE(other.met());
+}
+
+TEST(StopStride, AsksAtTheStepThatCompletesEachStride) {
+  support::StepLimit limit;
+  const StopCondition stop = support::counted(limit);
+  StopStride stride(stop, 4);
+  for (const int questions : {0, 0, 0, 1, 1, 1, 1, 2}) {
+    EXPECT_FALSE(stride.met_at_step());
+    EXPECT_EQ(limit.steps(), questions);
+  }
+}
+
+TEST(StopStride, AsksAtTheFirstStepIfThatIsWanted) {
+  support::StepLimit limit;
+  const StopCondition stop = support::counted(limit);
+  StopStride stride = StopStride::from_first(stop, 3);
+  EXPECT_EQ(limit.steps(), 0);
+  for (const int questions : {1, 1, 1, 2, 2, 2, 3}) {
+    EXPECT_FALSE(stride.met_at_step());
+    EXPECT_EQ(limit.steps(), questions);
+  }
+}
+
+TEST(StopStride, AsksOnceForAStepThatCountsAsMany) {
+  support::StepLimit limit;
+  const StopCondition stop = support::counted(limit);
+  StopStride stride(stop, 10);
+  for (const auto& [steps, questions] : {std::pair{9, 0}, {1, 1}, {35, 2}, {0, 2}, {9, 2}, {2, 3}}) {
+    EXPECT_FALSE(stride.met_after(static_cast<std::size_t>(steps)));
+    EXPECT_EQ(limit.steps(), questions) << "after " << steps;
+  }
+}
+
+TEST(StopStride, StaysMetAndAsksNoMore) {
+  support::StepLimit limit(1);
+  const StopCondition stop = support::counted(limit);
+  StopStride stride(stop, 2);
+  EXPECT_FALSE(stride.met_at_step());
+  EXPECT_FALSE(stride.met_at_step());
+  EXPECT_FALSE(stride.met_at_step());
+  EXPECT_FALSE(stride.met());
+  EXPECT_TRUE(stride.met_at_step());
+  EXPECT_TRUE(stride.met());
+  for (int k = 0; k < 5; ++k) EXPECT_TRUE(stride.met_at_step());
+  EXPECT_EQ(limit.steps(), 2);
 }
 
 TEST(SharedTurn, EndsConditionsThatDoNotOutlastIt) {
