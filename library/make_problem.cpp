@@ -29,19 +29,19 @@ namespace {
 /// An inclusive range of numbers.
 struct Range {
   double least;
-  double most;
+  double max;
   const char* unit;
 
-  bool contains(double value) const { return value >= least && value <= most; }
+  bool contains(double value) const { return value >= least && value <= max; }
 };
 
 constexpr Range kLength{kShortestLength, kLargestExtent, " m"};
 constexpr Range kLengthOrZero{0.0, kLargestExtent, " m"};
 constexpr Range kCoordinate{-kFarthestCoordinate, kFarthestCoordinate, " m"};
-constexpr Range kLinearSpeed{kLeastLinearSpeed, kMostLinearSpeed, " m/s"};
-constexpr Range kAngularSpeed{kLeastAngularSpeed, kMostAngularSpeed, " rad/s"};
-constexpr Range kAcceleration{kLeastAcceleration, kMostAcceleration, " per second squared"};
-constexpr Range kProfileSpeed{0.0, kMostAngularSpeed, ""};
+constexpr Range kLinearSpeed{kLeastLinearSpeed, kMaxLinearSpeed, " m/s"};
+constexpr Range kAngularSpeed{kLeastAngularSpeed, kMaxAngularSpeed, " rad/s"};
+constexpr Range kAcceleration{kLeastAcceleration, kMaxAcceleration, " per second squared"};
+constexpr Range kProfileSpeed{0.0, kMaxAngularSpeed, ""};
 constexpr Range kDuration{0.0, kLongestTime, " s"};
 constexpr Range kGoalTolerance{0.0, core::kMaxTolerance, " m"};
 constexpr Range kAngle{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max(), " rad"};
@@ -58,26 +58,26 @@ std::string item(const std::string& list, std::size_t index) {
   return list + '[' + std::to_string(index) + ']';
 }
 
-constexpr std::size_t kMostFaults = 20;
+constexpr std::size_t kMaxFaults = 20;
 
 /// Collects faults, and keeps the first ones of many.
 class FaultList {
  public:
-  explicit FaultList(std::size_t most) : most_(most) {}
+  explicit FaultList(std::size_t max) : max_(max) {}
 
   void add(std::string place, std::string detail) {
-    if (listed_.size() < most_) listed_.push_back({std::move(place), std::move(detail)});
+    if (listed_.size() < max_) listed_.push_back({std::move(place), std::move(detail)});
   }
   void check(double value, const Range& range, const std::string& place) {
     if (range.contains(value)) return;
     add(place, "The value is " + number_text(value) + "; it must be from " + number_text(range.least) +
-                   " to " + number_text(range.most) + range.unit + '.');
+                   " to " + number_text(range.max) + range.unit + '.');
   }
   bool empty() const { return listed_.empty(); }
   std::vector<Fault> take() { return std::move(listed_); }
 
  private:
-  std::size_t most_;
+  std::size_t max_;
   std::vector<Fault> listed_;
 };
 
@@ -211,7 +211,7 @@ std::vector<core::Action> read_actions(const std::vector<Action>& actions, const
 
 constexpr Range kHalfAngle{kLeastHalfAngle, std::numbers::pi, " rad"};
 constexpr Range kDue{-kLongestTime, kLongestTime, " s"};
-constexpr Range kWeight{kLeastWeight, kMostWeight, ""};
+constexpr Range kWeight{kLeastWeight, kMaxWeight, ""};
 constexpr Range kHorizon{kShortestHorizon, kLongestTime, " s"};
 
 void check_position(double x, double y, const std::string& place, FaultList& faults) {
@@ -226,9 +226,9 @@ void check_any_of(const Goal& goal, const std::string& place, FaultList& faults)
     faults.add(place + ".choice", count == 0 ? "The goal has no any_of."
                                              : "any_of has no pose of this number; the first one is 0.");
   }
-  if (count > 0 && (count < kFewestPoses || count > kMostPoses)) {
+  if (count > 0 && (count < kFewestPoses || count > kMaxPoses)) {
     faults.add(list, "There are " + std::to_string(count) + " poses; there must be " +
-                         std::to_string(kFewestPoses) + " to " + std::to_string(kMostPoses) + '.');
+                         std::to_string(kFewestPoses) + " to " + std::to_string(kMaxPoses) + '.');
   }
   for (std::size_t k = 0; k < count; ++k) {
     const Alternative& pose = goal.any_of[k];
@@ -312,8 +312,8 @@ void check_obstacle(const MovingObstacle& obstacle, const std::string& place, Fa
     const double distance =
         core::Position(entry.position.x - before.position.x, entry.position.y - before.position.y).norm();
     if (duration <= 0.0) faults.add(here + ".t", "The entry is not later than the one before.");
-    if (duration > 0.0 && distance > kMostLinearSpeed * duration) {
-      faults.add(here, "The obstacle moves faster than " + number_text(kMostLinearSpeed) + " m/s.");
+    if (duration > 0.0 && distance > kMaxLinearSpeed * duration) {
+      faults.add(here, "The obstacle moves faster than " + number_text(kMaxLinearSpeed) + " m/s.");
     }
   }
 }
@@ -369,7 +369,7 @@ Fault described(const core::ProblemFault& found) {
 }
 
 std::vector<Fault> faults_of(const Options& options, const Map& map) {
-  FaultList faults(kMostFaults);
+  FaultList faults(kMaxFaults);
   if (options.time_budget.count() <= 0)
     faults.add("options.time_budget", "The time budget must be positive.");
   const auto interval = options.start_safe_interval.value_or(0.0);
@@ -389,13 +389,13 @@ std::vector<Fault> faults_of(const Options& options, const Map& map) {
   if (!options.lattice_spacing) return faults.take();
   faults.check(*options.lattice_spacing, kLength, "options.lattice_spacing");
   if (!faults.empty()) return faults.take();
-  constexpr std::int64_t kMostVertices = 1'000'000'000;
+  constexpr std::int64_t kMaxVertices = 1'000'000'000;
   const auto along = [&](int cells) {
     return core::Lattice::vertices_along(cells * map.resolution(), *options.lattice_spacing);
   };
   const std::int64_t columns = along(map.columns());
   const std::int64_t rows = along(map.rows());
-  if (columns < 1 || rows < 1 || columns > kMostVertices / rows) {
+  if (columns < 1 || rows < 1 || columns > kMaxVertices / rows) {
     faults.add("options.lattice_spacing", "The lattice has no vertex on this map, or more than 1e9.");
   }
   return faults.take();
@@ -414,7 +414,7 @@ bool in_motion(const Problem& problem) {
 
 ReadFleet read_fleet(const Problem& problem) {
   const Frame frame(problem.map);
-  FaultList faults(kMostFaults);
+  FaultList faults(kMaxFaults);
   ReadFleet read;
   for (std::size_t k = 0; k < problem.robots.size(); ++k) {
     const Robot& robot = problem.robots[k];

@@ -10,7 +10,7 @@ namespace fleetplan {
 
 namespace {
 
-constexpr std::int64_t kMostCells = 1'000'000'000;
+constexpr std::int64_t kMaxCells = 1'000'000'000;
 
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument("map: " + what); }
 
@@ -24,13 +24,13 @@ Map::Map(int columns, int rows, double resolution, Position origin)
   if (!(resolution >= kShortestLength)) refuse("the resolution is below the smallest one, 0.0001 m");
   if (!(std::max(columns, rows) * resolution <= kLargestExtent)) refuse("it is larger than 1e6 m");
   if (!is_coordinate(origin.x) || !is_coordinate(origin.y)) refuse("the origin is farther than 1e9 m");
-  if (static_cast<std::int64_t>(columns) * rows > kMostCells) refuse("it has more than 1e9 cells");
+  if (static_cast<std::int64_t>(columns) * rows > kMaxCells) refuse("it has more than 1e9 cells");
   cells_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
 }
 
 Map Map::from_rows(std::span<const std::string_view> rows, double resolution, Position origin) {
-  constexpr std::size_t kMost = 1'000'000'000;
-  if (rows.empty() || rows.size() > kMost || rows[0].size() > kMost)
+  constexpr std::size_t kMax = 1'000'000'000;
+  if (rows.empty() || rows.size() > kMax || rows[0].size() > kMax)
     refuse("a map has 1 to 1e9 rows and columns");
   const auto columns = static_cast<int>(rows[0].size());
   const auto height = static_cast<int>(rows.size());

@@ -62,9 +62,9 @@ RequestError invalid_plans(const ValidateRequest& request, const core::VerifyRep
   RequestError error;
   error.detail = "The plans are not valid, so there are no dependencies; see errors and /v1/validate.";
   error.faults_total = report.violation_count;
-  // Bounded: at most FaultList::kMostListed.
+  // Bounded: at most FaultList::kMaxListed.
   for (const core::Violation& violation : report.violations) {
-    if (error.faults.size() == FaultList::kMostListed) break;
+    if (error.faults.size() == FaultList::kMaxListed) break;
     std::string names;
     for (const std::size_t robot : violation.robots) {
       names += (names.empty() ? "" : ", ") + request.robots[robot].id;
@@ -332,12 +332,12 @@ std::optional<std::string> requested_trace(const core::SimulatedFleet& fleet, Si
   if (!request.trace) return std::nullopt;
   std::size_t planned = 0;
   for (const core::RobotPlan& plan : request.plans) planned += plan.actions.size();
-  const std::size_t most = std::min(limits.max_actions, kActionsOfAny + kActionsOfOne * planned);
+  const std::size_t max_actions = std::min(limits.max_actions, kActionsOfAny + kActionsOfOne * planned);
   const core::StopCondition half = core::after_share(stop, 0.5);
-  const auto trace = core::trace_run(fleet, request.settings, *request.trace, most, half);
+  const auto trace = core::trace_run(fleet, request.settings, *request.trace, max_actions, half);
   auto text = trace ? write_trace(*trace, request, half) : std::nullopt;
   if (!text) {
-    request.warnings.push_back("The trace is left out: it has more than " + std::to_string(most) +
+    request.warnings.push_back("The trace is left out: it has more than " + std::to_string(max_actions) +
                                " actions, or takes more than half of the time budget or too much memory.");
   }
   return text;

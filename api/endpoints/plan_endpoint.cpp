@@ -70,7 +70,7 @@ std::optional<PlanDependencies> answer_dependencies(const core::CheckedPlan& mad
   if (!request.dependencies.wanted) return std::nullopt;
   const core::Problem& problem = made.task.problem;
   const core::StopCondition stop = made.planning.until(stages.received + request.budget);
-  return plan_dependencies(problem.robots(), made.plan.plans, request.dependencies, core::kMostTolerance,
+  return plan_dependencies(problem.robots(), made.plan.plans, request.dependencies, core::kMaxTolerance,
                            !problem.obstacles().empty(), stop);
 }
 
@@ -91,15 +91,15 @@ std::vector<std::string> joined(std::vector<std::string> warnings, const std::ve
 
 /// Returns a warning that names robots that gain nothing within the horizon; none if there are none.
 std::vector<std::string> stuck_warning(const core::Plan& plan, const std::vector<core::Robot>& robots) {
-  constexpr std::size_t kMostNamed = 5;
+  constexpr std::size_t kMaxNamed = 5;
   std::string names;
   std::size_t count = 0;
   for (const core::RobotPlan& one : plan.plans) {
-    if (!one.is_stuck || ++count > kMostNamed) continue;
+    if (!one.is_stuck || ++count > kMaxNamed) continue;
     names += (count > 1 ? ", " : "") + in_quotes(robots[one.robot].id);
   }
   if (count == 0) return {};
-  if (count > kMostNamed) names += " and " + std::to_string(count - kMostNamed) + " more";
+  if (count > kMaxNamed) names += " and " + std::to_string(count - kMaxNamed) + " more";
   return {"Robots that gain nothing on the way to their goals within the horizon: " + names +
           ". blocked_by of their plans has the robots that are in their way."};
 }

@@ -25,7 +25,7 @@
 namespace fleetplan::api {
 
 /// The most runs of one study.
-inline constexpr std::size_t kMostRuns = 100'000;
+inline constexpr std::size_t kMaxRuns = 100'000;
 
 /// A readable body of POST /v1/simulate. The actions of every plan are contiguous from the start of its robot
 /// on; whether plans collide is not judged. A robot without a plan has its committed actions as its plan.

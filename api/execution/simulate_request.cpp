@@ -86,7 +86,7 @@ constexpr auto kSimulateRequestMembers =
 constexpr std::array<std::string_view, 4> kPolicies{"open_loop", "absorb_waits", "dependencies",
                                                     "clock_stop"};
 constexpr std::size_t kDefaultRuns = 100;
-constexpr std::uint64_t kMostSimulationSeed = std::numeric_limits<std::uint64_t>::max();  // like the options'
+constexpr std::uint64_t kMaxSimulationSeed = std::numeric_limits<std::uint64_t>::max();  // like the options'
 
 /// Removes the gaps within the tolerance between the actions of each plan, and reports larger ones.
 void join_actions(const JsonReader& member, const std::vector<core::Robot>& robots,
@@ -143,13 +143,13 @@ void parse_all_dependencies(const JsonReader& root, SimulateRequest& request) {
 /// Reads `runs`, `seed` and `trace`. Runs are limited if their figures would take more than a quarter of the
 /// memory.
 void parse_runs(const JsonReader& root, const Limits& limits, SimulateRequest& request) {
-  constexpr Range kRuns{1.0, static_cast<double>(kMostRuns), "runs"};
+  constexpr Range kRuns{1.0, static_cast<double>(kMaxRuns), "runs"};
   const JsonReader member = root.find("runs");
   std::size_t runs = kDefaultRuns;
-  if (member.number(kRuns)) runs = member.natural(kMostRuns).value_or(runs);
-  request.settings.seed = root.find("seed").natural(kMostSimulationSeed).value_or(0);
+  if (member.number(kRuns)) runs = member.natural(kMaxRuns).value_or(runs);
+  request.settings.seed = root.find("seed").natural(kMaxSimulationSeed).value_or(0);
   const JsonReader trace = root.find("trace");
-  if (const auto run = trace.natural(kMostRuns)) {
+  if (const auto run = trace.natural(kMaxRuns)) {
     if (*run >= runs) {
       trace.fault(fault::kOutOfRange, "There is no run " + std::to_string(*run) + " of " +
                                           std::to_string(runs) + "; runs are counted from 0.");
@@ -157,14 +157,14 @@ void parse_runs(const JsonReader& root, const Limits& limits, SimulateRequest& r
     request.trace = *run;
   }
   const std::size_t figures = (request.plans.size() + 2) * sizeof(double);
-  const std::size_t most = std::max<std::size_t>(1, limits.max_plan_memory / 4 / figures);
-  if (runs > most) {
+  const std::size_t max_runs = std::max<std::size_t>(1, limits.max_plan_memory / 4 / figures);
+  if (runs > max_runs) {
     request.warnings.push_back("runs was reduced from " + std::to_string(runs) + " to " +
-                               std::to_string(most) + ": more figures of " +
+                               std::to_string(max_runs) + ": more figures of " +
                                std::to_string(request.plans.size()) +
                                " plans do not fit in max_plan_memory of /v1/limits.");
   }
-  request.settings.runs = std::min(runs, most);
+  request.settings.runs = std::min(runs, max_runs);
 }
 
 void take_fleet(Fleet& fleet, const Limits& limits, SimulateRequest& request) {
@@ -327,7 +327,7 @@ class SimulationWriter {
 
   void write_deadlocks() {
     json_.key("deadlocks").begin_array();
-    // Bounded: at most SimulationReport::kMostListed runs.
+    // Bounded: at most SimulationReport::kMaxListed runs.
     for (const core::SimulationReport::Deadlock& deadlock : report_.deadlocks) {
       json_.begin_object().member("run", deadlock.run);
       json_.key("robots").begin_array();

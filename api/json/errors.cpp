@@ -14,12 +14,12 @@ namespace fleetplan::api {
 
 namespace {
 
-constexpr std::size_t kMostBytes = 1 << 20;  // a pointer can be as long as the keys in the document
+constexpr std::size_t kMaxBytes = 1 << 20;  // a pointer can be as long as the keys in the document
 
 }  // namespace
 
 bool FaultList::wanted(JsonPlace place) const {
-  const bool full = placed_.size() >= kMostListed || bytes_ >= kMostBytes;
+  const bool full = placed_.size() >= kMaxListed || bytes_ >= kMaxBytes;
   return !full || place < placed_.back().place;
 }
 
@@ -29,7 +29,7 @@ void FaultList::keep(Placed placed) {
       std::upper_bound(placed_.begin(), placed_.end(), placed.place,
                        [](JsonPlace place, const Placed& other) { return place < other.place; });
   placed_.insert(after, std::move(placed));
-  while (placed_.size() > kMostListed || bytes_ - placed_.back().bytes() >= kMostBytes) {
+  while (placed_.size() > kMaxListed || bytes_ - placed_.back().bytes() >= kMaxBytes) {
     bytes_ -= placed_.back().bytes();
     placed_.pop_back();
   }

@@ -77,12 +77,12 @@ inline constexpr const char* kDependency = "dependency";     // dependencies of 
 inline constexpr const char* kInvalidPlan = "invalid_plan";  // plans that the check rejects
 }  // namespace fault
 
-/// The faults of one document, collected while it is read. All are counted, and the first kMostListed in the
+/// The faults of one document, collected while it is read. All are counted, and the first kMaxListed in the
 /// order of the document are kept; of the others not even the text is made, so that a hostile document costs
 /// neither time nor memory.
 class FaultList {
  public:
-  static constexpr std::size_t kMostListed = 20;
+  static constexpr std::size_t kMaxListed = 20;
 
   /// Adds the fault that `make_fault` returns, or only counts it.
   template <typename MakeFault>

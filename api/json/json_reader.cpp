@@ -14,9 +14,9 @@ namespace {
 std::string range_text(const Range& range) {
   const std::string unit(range.unit);
   if (range.least == std::numeric_limits<double>::lowest()) return "finite, in " + unit;
-  if (range.most == std::numeric_limits<double>::max())
+  if (range.max == std::numeric_limits<double>::max())
     return "at least " + number_text(range.least) + ' ' + unit;
-  return "from " + number_text(range.least) + " to " + number_text(range.most) + ' ' + unit;
+  return "from " + number_text(range.least) + " to " + number_text(range.max) + ' ' + unit;
 }
 
 /// Returns the number of characters of UTF-8: of all bytes but those that continue a character.
@@ -112,19 +112,19 @@ std::optional<double> JsonReader::number(const Range& range) const {
     wrong_type("a number");
     return std::nullopt;
   }
-  if (std::isfinite(*number) && *number >= range.least && *number <= range.most) return number;
+  if (std::isfinite(*number) && *number >= range.least && *number <= range.max) return number;
   must_be(fault::kOutOfRange, [&] { return range_text(range); });
   return std::nullopt;
 }
 
 std::optional<std::uint64_t> JsonReader::natural() const { return value_ ? value_->natural() : std::nullopt; }
 
-std::optional<std::uint64_t> JsonReader::natural(std::uint64_t most) const {
+std::optional<std::uint64_t> JsonReader::natural(std::uint64_t max) const {
   if (!value_) return std::nullopt;
   const auto natural = value_->natural();
-  if (natural && *natural <= most) return natural;
+  if (natural && *natural <= max) return natural;
   const auto number = value_->number();
-  const std::string wanted = "a whole number from 0 to " + std::to_string(most);
+  const std::string wanted = "a whole number from 0 to " + std::to_string(max);
   const bool fraction = number && std::isfinite(*number) && std::floor(*number) != *number;
   if (!number || fraction) {
     wrong_type(wanted);

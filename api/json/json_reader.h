@@ -58,7 +58,7 @@ std::size_t plain_length(std::string_view text);
 /// A closed range of numbers, and their unit for messages.
 struct Range {
   double least;
-  double most;
+  double max;
   std::string_view unit;
 };
 
@@ -104,8 +104,8 @@ class JsonReader {
   Items members() const;
 
   std::optional<double> number(const Range& range) const;
-  /// Returns a whole number from 0 to `most`; anything else is a fault.
-  std::optional<std::uint64_t> natural(std::uint64_t most) const;
+  /// Returns a whole number from 0 to `max`; anything else is a fault.
+  std::optional<std::uint64_t> natural(std::uint64_t max) const;
   std::optional<bool> boolean() const;
   /// Returns a string of 1 to kLongestName characters; anything else is a fault.
   std::optional<std::string> name() const;

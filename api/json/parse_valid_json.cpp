@@ -159,7 +159,7 @@ std::optional<DecodedString> decode_string(std::string_view text) {
   return decoded;
 }
 
-constexpr int kMostDigits = 18;  // any number of so many digits fits in 64 bits
+constexpr int kMaxDigits = 18;  // any number of so many digits fits in 64 bits
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -294,7 +294,7 @@ class Parser {
     if (negative) ++at_;
     const char* const digits = at_;
     std::uint64_t whole = 0;
-    for (; at_ != end_ && is_digit(*at_) && at_ - digits < kMostDigits; ++at_) {
+    for (; at_ != end_ && is_digit(*at_) && at_ - digits < kMaxDigits; ++at_) {
       whole = whole * 10 + static_cast<std::uint64_t>(*at_ - '0');
     }
     if (at_ == digits || (*digits == '0' && at_ - digits > 1)) return false;

@@ -93,7 +93,7 @@ class DuplicateKeys {
 void report_duplicate_keys(JsonDocument& document) { DuplicateKeys(document).report(); }
 
 // The most values of a document. No request comes near: 32 MiB of actions are 4 million values.
-constexpr std::size_t kMostValues = 5'000'000;
+constexpr std::size_t kMaxValues = 5'000'000;
 
 /// A text as the parser reads it: as a stream, which ends early when the reading is stopped.
 class Input {
@@ -203,7 +203,7 @@ class Builder {
   }
 
   bool too_deep() const { return too_deep_; }
-  bool too_many() const { return values_ > kMostValues; }
+  bool too_many() const { return values_ > kMaxValues; }
   bool overflowed() const { return overflowed_; }
   std::size_t error_position() const { return error_position_; }
   JsonTape take() { return std::move(tape_); }
@@ -310,7 +310,7 @@ JsonError error_of(const Builder& builder, std::string_view body, int max_depth)
   }
   if (builder.too_many()) {
     return {JsonError::Kind::too_large,
-            std::string("The JSON holds more than ") + std::to_string(kMostValues) +
+            std::string("The JSON holds more than ") + std::to_string(kMaxValues) +
                 " values, which no request needs; send a large map as an image, best as a PNG."};
   }
   return {JsonError::Kind::malformed, explain_malformed(body, builder.error_position())};
@@ -336,7 +336,7 @@ Result<JsonDocument, JsonError> read_json(std::string_view body, int max_depth, 
     if (work.met()) return unfinished;
     return document;
   };
-  if (auto tape = parse_valid_json(body, static_cast<std::size_t>(max_depth), kMostValues, work)) {
+  if (auto tape = parse_valid_json(body, static_cast<std::size_t>(max_depth), kMaxValues, work)) {
     return finished(std::move(*tape));
   }
   if (work.met()) return unfinished;

@@ -34,7 +34,7 @@ Json number(double value) {
 
 Json with_range(Json schema, const Range& range) {
   schema["minimum"] = number(range.least);
-  schema["maximum"] = number(range.most);
+  schema["maximum"] = number(range.max);
   return schema;
 }
 
@@ -59,14 +59,14 @@ Json schema_of(const ServiceOption& option) {
 Json schema_of(const NaturalOption& option) {
   return {{"type", "integer"},
           {"minimum", 0},
-          {"maximum", option.most},
+          {"maximum", option.max},
           {"default", kDefaults.plan.*option.field}};
 }
 
 Json schema_of(const BoundOption& option) {
   return {{"type", Json::array({"integer", "null"})},
           {"minimum", 0},
-          {"maximum", option.most},
+          {"maximum", option.max},
           {"default", nullptr}};
 }
 

@@ -31,30 +31,29 @@ struct Limits {
 };
 
 /// The most pairs of poses of one matrix, and of robots and tasks of one assignment.
-inline constexpr std::size_t kMostPairs = 250'000;
+inline constexpr std::size_t kMaxPairs = 250'000;
 
 // The ranges of numbers in requests are those of the library.
 inline constexpr Range kLength{kShortestLength, kLargestExtent, "metres"};
 inline constexpr Range kLengthOrZero{0.0, kLargestExtent, "metres"};
 inline constexpr Range kCoordinate{-kFarthestCoordinate, kFarthestCoordinate, "metres"};
-inline constexpr Range kLinearSpeed{kLeastLinearSpeed, kMostLinearSpeed, "metres per second"};
-inline constexpr Range kAngularSpeed{kLeastAngularSpeed, kMostAngularSpeed, "radians per second"};
-inline constexpr Range kLinearAcceleration{kLeastAcceleration, kMostAcceleration,
-                                           "metres per second squared"};
-inline constexpr Range kAngularAcceleration{kLeastAcceleration, kMostAcceleration,
+inline constexpr Range kLinearSpeed{kLeastLinearSpeed, kMaxLinearSpeed, "metres per second"};
+inline constexpr Range kAngularSpeed{kLeastAngularSpeed, kMaxAngularSpeed, "radians per second"};
+inline constexpr Range kLinearAcceleration{kLeastAcceleration, kMaxAcceleration, "metres per second squared"};
+inline constexpr Range kAngularAcceleration{kLeastAcceleration, kMaxAcceleration,
                                             "radians per second squared"};
 /// The measured speed of a robot; negative backwards.
-inline constexpr Range kMeasuredSpeed{-kMostLinearSpeed, kMostLinearSpeed, "metres per second"};
+inline constexpr Range kMeasuredSpeed{-kMaxLinearSpeed, kMaxLinearSpeed, "metres per second"};
 /// The speeds in a profile of speed.
-inline constexpr Range kProfileSpeed{0.0, kMostAngularSpeed, "metres or radians per second"};
+inline constexpr Range kProfileSpeed{0.0, kMaxAngularSpeed, "metres or radians per second"};
 inline constexpr Range kDuration{0.0, kLongestTime, "seconds"};
 inline constexpr Range kDue{-kLongestTime, kLongestTime, "seconds"};  // negative: the past
 inline constexpr Range kHorizon{kShortestHorizon, kLongestTime, "seconds"};
 inline constexpr Range kSlackInTime{1e-3, kLongestTime, "seconds"};  // slack of dependencies
 inline constexpr Range kAnyAngle{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max(),
                                  "radians"};
-inline constexpr Range kWeight{kLeastWeight, kMostWeight, ""};  // of robots and tasks
-inline constexpr Range kFraction{0.0, 1.0, ""};                 // fraction of an action
+inline constexpr Range kWeight{kLeastWeight, kMaxWeight, ""};  // of robots and tasks
+inline constexpr Range kFraction{0.0, 1.0, ""};                // fraction of an action
 /// The greatest number of an action or a goal of a robot; far beyond any limit of a request.
 inline constexpr std::uint64_t kGreatestIndex = 1'000'000'000;
 

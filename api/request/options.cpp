@@ -21,8 +21,8 @@ using Word = WordOption::Word;
 
 // The range of the budget. A longer one is clamped to the service's maximum.
 constexpr Range kBudget{1.0, std::numeric_limits<double>::max(), "milliseconds"};
-constexpr std::uint64_t kMostSeed = std::numeric_limits<std::uint64_t>::max();
-constexpr std::uint64_t kMostIterations = std::numeric_limits<std::int64_t>::max();
+constexpr std::uint64_t kMaxSeed = std::numeric_limits<std::uint64_t>::max();
+constexpr std::uint64_t kMaxIterations = std::numeric_limits<std::int64_t>::max();
 
 constexpr std::array<Word, 2> kModes{{
     {"first", "First solution"},
@@ -82,7 +82,7 @@ constexpr std::array<OptionRow, 22> kTable{{
      "What `anytime` minimizes: the sum of the robots' costs, each times its `weight`; the greatest cost; or "
      "the sum of how much later than `due` they arrive at goals, each times `weight`, and among equal ones "
      "the first."},
-    {"seed", "Seed", "", NaturalOption{kMostSeed, &PlanOptions::seed}, "Seed of all random choices."},
+    {"seed", "Seed", "", NaturalOption{kMaxSeed, &PlanOptions::seed}, "Seed of all random choices."},
     {"priority", "Initial order", "", one_of<&PlanOptions::priority>(kPriorities),
      "The initial order in which robots are planned. Later robots give way to earlier ones."},
     {"reordering", "After a failure", "", one_of<&PlanOptions::reordering>(kReorderings),
@@ -107,7 +107,7 @@ constexpr std::array<OptionRow, 22> kTable{{
     {"connectivity", "Connectivity", "", CountOption{kConnectivities, &PlanOptions::connectivity},
      "Number of neighbours of a cell. With `any_angle`, later improvement of `anytime` may have more, up to "
      "32."},
-    {"max_iterations", "Improvement steps", "", BoundOption{kMostIterations, &PlanOptions::max_iterations},
+    {"max_iterations", "Improvement steps", "", BoundOption{kMaxIterations, &PlanOptions::max_iterations},
      "Bounds `anytime` by a number of improvement steps instead of the clock."},
     {"replan", "Previous plans", "", one_of<&PlanOptions::replan>(kReplans),
      "How `previous` plans that still hold are used. `all`: the search begins with them and improves them. "
@@ -187,11 +187,11 @@ class OptionReader {
     options_.*option.field = member.number(option.range);
   }
   void read(const NaturalOption& option, const JsonReader& member) {
-    set(option.field, member.natural(option.most));
+    set(option.field, member.natural(option.max));
   }
   void read(const BoundOption& option, const JsonReader& member) {
     if (member.is_null()) return;
-    if (const auto bound = member.natural(option.most)) {
+    if (const auto bound = member.natural(option.max)) {
       options_.plan.*option.field = static_cast<std::int64_t>(*bound);
     }
   }

@@ -52,15 +52,15 @@ struct ServiceOption {
   double example;
 };
 
-/// A whole number from 0 to `most`.
+/// A whole number from 0 to `max`.
 struct NaturalOption {
-  std::uint64_t most;
+  std::uint64_t max;
   OptionField<std::uint64_t> field;
 };
 
-/// A whole number from 0 to `most`, or null, the default, for no bound.
+/// A whole number from 0 to `max`, or null, the default, for no bound.
 struct BoundOption {
-  std::uint64_t most;
+  std::uint64_t max;
   OptionField<std::optional<std::int64_t>> field;
 };
 

@@ -50,10 +50,10 @@ void check_order(const Entry& before, const Entry& entry, const JsonReader& item
     });
   }
   const double distance = (entry.position - before.position).norm();
-  if (distance <= kLinearSpeed.most * duration) return;
+  if (distance <= kLinearSpeed.max * duration) return;
   item.fault(fault::kSpeed, [&] {
     return "The obstacle moves " + number_text(distance) + " m in " + number_text(duration) +
-           " s; it may be as fast as " + number_text(kLinearSpeed.most) +
+           " s; it may be as fast as " + number_text(kLinearSpeed.max) +
            " m/s. Give one that appears elsewhere as another obstacle.";
   });
 }

@@ -304,7 +304,7 @@ namespace {
 constexpr auto kValidateRequestMembers = joined(
     kFleetMembers, std::array<std::string_view, 2>{"plans", "tolerance"}, kPlanAnswerMembers, kAddedMembers);
 
-constexpr double kDefaultTolerance = core::kMostTolerance;  // metres, seconds, radians
+constexpr double kDefaultTolerance = core::kMaxTolerance;  // metres, seconds, radians
 constexpr double kLargestTolerance = 1e9;
 constexpr Range kTolerance{0.0, kLargestTolerance, "(metres, seconds and radians)"};
 

@@ -27,10 +27,10 @@ std::string text_of_member(const JsonReader& member, std::string_view name, std:
   JsonWriter json;
   copy_json(json, member.value());
   std::string text = json.take();
-  if (text.size() <= kMostMetadataBytes) return text;
+  if (text.size() <= kMaxMetadataBytes) return text;
   member.fault(fault::kOutOfRange, std::string(name) + " has " + std::to_string(text.size()) +
                                        " bytes; this service accepts at most " +
-                                       std::to_string(kMostMetadataBytes) + " in each " + std::string(what) +
+                                       std::to_string(kMaxMetadataBytes) + " in each " + std::string(what) +
                                        ".");
   return {};
 }

@@ -95,8 +95,8 @@ inline core::Position WorldFrame::to_world(const core::Position& map) const {
 /// How many things of one kind a request may contain in total, wherever they are.
 class Quota {
  public:
-  /// A quota of `most` things. `what` names them, in the plural, for the fault.
-  Quota(std::size_t most, std::string_view what) : left_(most), most_(most), what_(what) {}
+  /// A quota of `max` things. `what` names them, in the plural, for the fault.
+  Quota(std::size_t max, std::string_view what) : left_(max), max_(max), what_(what) {}
 
   /// Takes the items of an array from the quota. Returns whether all are within it. Only the first array
   /// beyond it is a fault; all later ones are not.
@@ -106,7 +106,7 @@ class Quota {
     if (exceeded_) return false;
     exceeded_ = count > left_;
     if (exceeded_) {
-      place.fault(fault::kOutOfRange, "The request has more than " + std::to_string(most_) + " " +
+      place.fault(fault::kOutOfRange, "The request has more than " + std::to_string(max_) + " " +
                                           std::string(what_) + ", the maximum of this service; send fewer.");
       return false;
     }
@@ -119,7 +119,7 @@ class Quota {
 
  private:
   std::size_t left_;
-  std::size_t most_;
+  std::size_t max_;
   std::string_view what_;
   bool exceeded_ = false;
 };
@@ -154,7 +154,7 @@ class UniqueIds {
 };
 
 /// The most bytes of one object of metadata, and of the actions of a goal, written without spaces.
-inline constexpr std::size_t kMostMetadataBytes = 16'384;
+inline constexpr std::size_t kMaxMetadataBytes = 16'384;
 
 /// Reads `metadata` of a request, a robot or a goal: an object that the answer repeats and that means nothing
 /// here. Returns it as JSON text, or an empty text if it is absent or at fault.

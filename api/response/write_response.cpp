@@ -438,7 +438,7 @@ std::string write_response(const VerifiedPlan& verified, const std::string& requ
 
 namespace {
 
-constexpr std::size_t kMostWritten = 20;
+constexpr std::size_t kMaxWritten = 20;
 
 std::string_view kind_name(core::Violation::Kind kind) {
   switch (kind) {
@@ -482,12 +482,12 @@ std::optional<double> reported_clearance(const core::VerifyReport& report) {
 std::string write_report(const core::VerifyReport& report, const std::vector<core::Robot>& robots,
                          const std::vector<core::MovingObstacle>& obstacles,
                          const std::vector<core::Zone>& zones) {
-  const std::size_t written = std::min(report.violations.size(), kMostWritten);
+  const std::size_t written = std::min(report.violations.size(), kMaxWritten);
   JsonWriter json;
   json.begin_object();
   json.member("valid", report.valid());
   json.key("violations").begin_array();
-  // Bounded: at most kMostWritten violations.
+  // Bounded: at most kMaxWritten violations.
   for (std::size_t index = 0; index < written; ++index) {
     const core::Violation& violation = report.violations[index];
     json.begin_object();

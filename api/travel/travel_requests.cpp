@@ -67,11 +67,11 @@ MatrixPoses distinct(const std::vector<MatrixPose>& poses, core::Work& work) {
 
 /// Returns whether there are not too many pairs.
 bool check_pose_pairs(const JsonReader& from, const JsonReader& to) {
-  if (!from.array() || !to.array() || to.size() == 0 || from.size() <= kMostPairs / to.size()) return true;
+  if (!from.array() || !to.array() || to.size() == 0 || from.size() <= kMaxPairs / to.size()) return true;
   to.fault(fault::kOutOfRange, "There are " + std::to_string(from.size()) + " x " +
                                    std::to_string(to.size()) +
                                    " pairs of poses; this service accepts at most " +
-                                   std::to_string(kMostPairs) + ". Send fewer at a time.");
+                                   std::to_string(kMaxPairs) + ". Send fewer at a time.");
   return false;
 }
 
@@ -406,10 +406,10 @@ class TaskReader {
 
 /// Returns whether there are not too many pairs of robots and tasks.
 bool check_task_pairs(const JsonReader& tasks, std::size_t robots) {
-  if (!tasks || tasks.size() <= kMostPairs / robots) return true;
+  if (!tasks || tasks.size() <= kMaxPairs / robots) return true;
   tasks.fault(fault::kOutOfRange, "There are " + std::to_string(tasks.size()) + " tasks for " +
                                       std::to_string(robots) + " robots; this service accepts at most " +
-                                      std::to_string(kMostPairs) +
+                                      std::to_string(kMaxPairs) +
                                       " pairs. Send the tasks that are due first.");
   return false;
 }

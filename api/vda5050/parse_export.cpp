@@ -342,7 +342,7 @@ constexpr double kNodesAhead = 2.0;
 /// Reports a time ahead that is so short that plans of this length would have too many nodes. Returns whether
 /// it is long enough.
 bool is_long_enough(const JsonReader& member, const VdaRequest& request) {
-  constexpr double kMostNodes = 30'000.0;  // about 13 MiB
+  constexpr double kMaxNodes = 30'000.0;  // about 13 MiB
   if (!request.release_ahead) return true;
   double nodes = 0.0;
   // Bounded: the actions in the body.
@@ -352,7 +352,7 @@ bool is_long_enough(const JsonReader& member, const VdaRequest& request) {
       nodes += (action.t_end - action.t_start) * kNodesAhead / *request.release_ahead;
     }
   }
-  if (nodes <= kMostNodes) return true;
+  if (nodes <= kMaxNodes) return true;
   member.fault(fault::kOutOfRange, [&] {
     return "The plans would have " + number_text(std::ceil(nodes)) +
            " nodes, of which this service makes 30,000 at most; give a longer time, or leave it out.";

@@ -316,7 +316,7 @@ VehicleReports parse_reports(const JsonReader& member, const VdaRequest& request
     VehicleReport& report = reports.of_robots[k];
     FaultList faults = last.json.faults_of([&] { report.state = StateReader(last.json, request, k).read(); });
     // To find the place of a fault takes a look at each message before it.
-    const std::size_t described = std::min(faults.count(), FaultList::kMostListed);
+    const std::size_t described = std::min(faults.count(), FaultList::kMaxListed);
     report.faults.add_all(std::move(faults));
     if (member.work().met_after(described * last.index)) break;
   }

@@ -17,7 +17,7 @@ namespace fleetplan::core {
 namespace {
 
 /// Pairs that are listed; where more overlap, nobody reads all of them.
-constexpr std::size_t kMostPairs = 10'000;
+constexpr std::size_t kMaxPairs = 10'000;
 
 /// A commitment that cannot end there ends by so much before disks overlap, at most (seconds).
 constexpr double kLater = 1e-2;
@@ -68,7 +68,7 @@ class CollisionSearch {
         if (work_.met_after(1)) return found;
         const auto t = begin_of_overlap(j, i);
         if (!t) continue;
-        if (found.listed.size() < kMostPairs) found.listed.push_back({j, i, *t});
+        if (found.listed.size() < kMaxPairs) found.listed.push_back({j, i, *t});
         ++found.total;
       }
     }

@@ -82,7 +82,7 @@ class CornerVisibility::View {
   /// for all corners. The points that a tangent touches are up to a diameter nearer to each other, in either
   /// direction, than the corners.
   void scan(bool up, int side) {
-    const double diameter = 2.0 * corners_.most_radius_ + kRounding;
+    const double diameter = 2.0 * corners_.max_radius_ + kRounding;
     const int step = up ? 1 : -1;
     sectors_ = {{-kSteepest, kSteepest}};
     int row = static_cast<int>(up ? std::floor(y_) : std::ceil(y_) - 1.0);
@@ -187,11 +187,11 @@ class CornerVisibility::View {
   std::int64_t sectors_followed_ = 0;
 };
 
-CornerVisibility::CornerVisibility(const OccupancyGrid& grid, double least_radius, double most_radius,
+CornerVisibility::CornerVisibility(const OccupancyGrid& grid, double least_radius, double max_radius,
                                    const StopCondition& stop)
     : grid_(grid),
       least_radius_(least_radius / grid.resolution()),
-      most_radius_(most_radius / grid.resolution()),
+      max_radius_(max_radius / grid.resolution()),
       stop_(stop),
       stride_(stop_, kStopStride) {
   find_corners();

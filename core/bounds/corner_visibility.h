@@ -31,8 +31,8 @@ struct Corner {
 /// nor straight away from it. Not thread-safe.
 class CornerVisibility {
  public:
-  /// Finds corners for disks with radii from `least_radius` to `most_radius` (metres, >= 0).
-  CornerVisibility(const OccupancyGrid& grid, double least_radius, double most_radius,
+  /// Finds corners for disks with radii from `least_radius` to `max_radius` (metres, >= 0).
+  CornerVisibility(const OccupancyGrid& grid, double least_radius, double max_radius,
                    const StopCondition& stop);
   CornerVisibility(const CornerVisibility&) = delete;
   CornerVisibility& operator=(const CornerVisibility&) = delete;
@@ -73,7 +73,7 @@ class CornerVisibility {
 
   const OccupancyGrid& grid_;
   double least_radius_;               // cells
-  double most_radius_;                // cells
+  double max_radius_;                 // cells
   IndexedVector<Corner> corners_;     // by line, then abscissa
   IndexedVector<int> first_of_line_;  // by line, and the number of corners at the end
   IndexedVector<Run> runs_;           // by row; the first and last of a row reach to infinity

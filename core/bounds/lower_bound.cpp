@@ -69,7 +69,7 @@ namespace {
 
 /// The most, in radians, by which the line of a robot may be beside the direction: beyond that, the robot
 /// goes away from the goal.
-constexpr double kMostAside = std::numbers::pi / 2.0;
+constexpr double kMaxAside = std::numbers::pi / 2.0;
 
 /// Rotations and length when the robot's line comes within `aside` radians of the direction, at `end`.
 class Turns {
@@ -85,7 +85,7 @@ class Turns {
     double least = std::numeric_limits<double>::infinity();
     for (const double aside :
          {0.0, from_, to_, from_ - least_, to_ - least_, 0.5 * sum, stationary(1.0), stationary(2.0)}) {
-      least = std::min(least, cost(std::clamp(aside, 0.0, kMostAside)));
+      least = std::min(least, cost(std::clamp(aside, 0.0, kMaxAside)));
     }
     return least;
   }

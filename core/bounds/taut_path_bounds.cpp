@@ -225,7 +225,7 @@ struct TautPathBounds::Way {
     }
   }
   /// The most seconds that the leg takes in the cheapest plan, if there is a plan of this cost.
-  double most_seconds(const Itinerary& itinerary, std::size_t leg, double cost) const {
+  double max_seconds(const Itinerary& itinerary, std::size_t leg, double cost) const {
     double others = itinerary.t_begin - itinerary.service_done;
     for (std::size_t k = 0; k < legs.size(); ++k) {
       others += itinerary.goals[k].service + (k == leg ? 0.0 : seconds[k]);
@@ -288,11 +288,11 @@ void TautPathBounds::improve(const Instance& instance, const LegsByRadius& out_o
       if (work <= 0) return;
       Way& way = ways[index.way];
       const Itinerary& itinerary = instance.itinerary(index.robot);
-      const double most = way.most_seconds(itinerary, index.leg, costs[index.robot]);
+      const double max_seconds = way.max_seconds(itinerary, index.leg, costs[index.robot]);
       const std::int64_t before = search.work();
       const GoalLeg& leg = way.legs[index.leg];
       const Body body = without_turns_if_reversing(instance.views(index.robot)[index.leg].body);
-      const TautPathResult result = search.run(leg, body, most, work / kWorkDivisor, stop);
+      const TautPathResult result = search.run(leg, body, max_seconds, work / kWorkDivisor, stop);
       work -= search.work() - before;
       const double turn = instance.body(index.robot).may_reverse && leg.heading && leg.to.theta
                               ? instance.body(index.robot).rotation_time(*leg.heading, *leg.to.theta)

@@ -108,7 +108,7 @@ Instance::Instance(const Problem& problem, const PlanOptions& options,
 namespace {
 
 /// More than what a disk in contact with an obstacle overlaps it, rounding included.
-constexpr double kMostOverlap = kContactTolerance + 2.0 * kSamePosition;
+constexpr double kMaxOverlap = kContactTolerance + 2.0 * kSamePosition;
 
 }  // namespace
 
@@ -116,14 +116,14 @@ double radius_at_start(const Instance& instance, std::size_t robot) {
   const double radius = instance.body(robot).radius;
   const PlanOptions& options = instance.options();
   const double overlap = std::max(0.0, options.start_overlap - options.inflation);  // of the bare disk
-  const double least = std::max(radius - overlap - kMostOverlap, kSmallestDisk * radius);
+  const double least = std::max(radius - overlap - kMaxOverlap, kSmallestDisk * radius);
   return instance.sight(robot).fitting_radius(instance.itinerary(robot).pose.position, least,
                                               instance.body(robot).wall_radius);
 }
 
 double radius_at_goal(const Instance& instance, std::size_t robot, const Position& goal, std::size_t stage) {
   const double radius = instance.views(robot)[stage].body.wall_radius;
-  return instance.sight(robot).fitting_radius(goal, radius - kMostOverlap, radius);
+  return instance.sight(robot).fitting_radius(goal, radius - kMaxOverlap, radius);
 }
 
 bool fits_at_start(const Instance& instance, std::size_t robot) {
@@ -132,7 +132,7 @@ bool fits_at_start(const Instance& instance, std::size_t robot) {
 }
 
 bool is_clear_at_start(const Instance& instance, std::size_t robot) {
-  return radius_at_start(instance, robot) >= instance.body(robot).wall_radius - kMostOverlap;
+  return radius_at_start(instance, robot) >= instance.body(robot).wall_radius - kMaxOverlap;
 }
 
 bool fits_at_goals(const Instance& instance, std::size_t robot) {
@@ -141,13 +141,13 @@ bool fits_at_goals(const Instance& instance, std::size_t robot) {
   for (std::size_t k = 0; k < goals.size(); ++k) {
     if (goals[k].anywhere) continue;
     const double largest = std::max(views[k].body.wall_radius, views[k + 1].body.wall_radius);
-    if (!instance.sight(robot).disk_fits(goals[k].position, largest - kMostOverlap)) return false;
+    if (!instance.sight(robot).disk_fits(goals[k].position, largest - kMaxOverlap)) return false;
   }
   return true;
 }
 
 bool fits_at(const Instance& instance, std::size_t robot, const Position& position) {
-  return instance.sight(robot).disk_fits(position, instance.body(robot).wall_radius - kMostOverlap);
+  return instance.sight(robot).disk_fits(position, instance.body(robot).wall_radius - kMaxOverlap);
 }
 
 }  // namespace fleetplan::core

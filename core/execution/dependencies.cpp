@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kLooksBetweenPolls = 1024;
 /// The most buckets, which bounds memory on huge maps.
-constexpr double kMostBuckets = 2.5e5;
+constexpr double kMaxBuckets = 2.5e5;
 
 double largest_radius(const std::vector<std::vector<PlannedStretch>>& by_robot) {
   double largest = 0.0;
@@ -40,7 +40,7 @@ BucketGrid grid_of(const std::vector<std::vector<PlannedStretch>>& by_robot, dou
     }
   }
   const double size = std::max(
-      {2.0 * radius, std::sqrt(width * height / kMostBuckets), width / kMostBuckets, height / kMostBuckets});
+      {2.0 * radius, std::sqrt(width * height / kMaxBuckets), width / kMaxBuckets, height / kMaxBuckets});
   return {width, height, size};
 }
 
@@ -246,7 +246,7 @@ class DependencyMaker {
       if (!near || !compare(robot, *near) || !index.add(robot)) return std::nullopt;
     }
     const auto kept = without_implied(std::move(found_), stop_);
-    if (!kept || kept->size() + dependencies_.tight.size() > most()) return std::nullopt;
+    if (!kept || kept->size() + dependencies_.tight.size() > max_count()) return std::nullopt;
     write(*kept);
     if (stop_.met()) return std::nullopt;
     return std::move(dependencies_);
@@ -275,15 +275,15 @@ class DependencyMaker {
       for (const Tightness& tight : pair->tight) {
         dependencies_.tight.push_back({other, robot, tight.t, tight.slack});
       }
-      if (found_.size() + dependencies_.tight.size() > kMostFound) return false;
+      if (found_.size() + dependencies_.tight.size() > kMaxFound) return false;
     }
     return true;
   }
 
-  std::size_t most() const {
+  std::size_t max_count() const {
     std::size_t actions = 0;
     for (const Actions& of_robot : actions_) actions += of_robot.size();
-    return std::min(kMostDependencies, kDependenciesOfAny + kDependenciesOfAnAction * actions);
+    return std::min(kMaxDependencies, kDependenciesOfAny + kDependenciesOfAnAction * actions);
   }
 
   void keep(std::size_t waits, std::size_t leads, const Step& step) {

@@ -66,13 +66,13 @@ struct DependencyRules {
 };
 
 /// The limits of an answer: kDependenciesOfAny dependencies and tight pairs together, kDependenciesOfAnAction
-/// more for each action, and never more than kMostDependencies. Robots that follow each other closely and
+/// more for each action, and never more than kMaxDependencies. Robots that follow each other closely and
 /// slowly would have millions.
 inline constexpr std::size_t kDependenciesOfAny = 10'000;
 inline constexpr std::size_t kDependenciesOfAnAction = 100;
-inline constexpr std::size_t kMostDependencies = 250'000;
+inline constexpr std::size_t kMaxDependencies = 250'000;
 /// The limit of dependencies that are found, including those that others imply.
-inline constexpr std::size_t kMostFound = 1'000'000;
+inline constexpr std::size_t kMaxFound = 1'000'000;
 
 /// Returns the dependencies of a valid plan. If `tight` is empty, robots that execute their own actions in
 /// order, at any speed and with any stops, and obey the dependencies keep the sum of their radii and margins,

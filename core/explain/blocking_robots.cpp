@@ -7,7 +7,7 @@ namespace fleetplan::core {
 namespace {
 
 /// The expansions of all searches for blocking robots together: about a tenth of a second.
-constexpr std::int64_t kMostBlockingExpansions = 20'000;
+constexpr std::int64_t kMaxBlockingExpansions = 20'000;
 
 }  // namespace
 
@@ -20,7 +20,7 @@ std::vector<std::size_t> BlockingRobots::find(std::size_t robot) {
   const std::optional<Trajectory> followed = reservations.trajectory(robot);
   reservations.remove(robot);
   for (std::size_t k = 0; k < blocking.size() && blocking.size() > 1;) {
-    if (stop_.met() || expansions_ > kMostBlockingExpansions) break;
+    if (stop_.met() || expansions_ > kMaxBlockingExpansions) break;
     const std::int64_t before = state_.expansions();
     std::vector<std::size_t> fewer = blocking;
     fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k));

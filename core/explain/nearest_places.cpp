@@ -44,7 +44,7 @@ bool NearestPlaces::fits(const LineOfSight& sight, const Position& place, double
 
 std::optional<Position> NearestPlaces::of(const LineOfSight& sight, const Position& from, double radius,
                                           double overlap) {
-  const std::size_t most = std::min(tests_ + kMaxPlacesOfOne, kMaxPlaces);
+  const std::size_t max_tests = std::min(tests_ + kMaxPlacesOfOne, kMaxPlaces);
   const double farthest = std::max(kFarthest, kFarthestRadii * radius);
   double below = overlap;
   // Bounded: kMaxPlacesOfOne, and the stop condition.
@@ -53,7 +53,7 @@ std::optional<Position> NearestPlaces::of(const LineOfSight& sight, const Positi
     std::optional<Position> nearest;
     double shortest = distance;
     for (int index = 0; index < kDirections; ++index) {
-      if (tests_ >= most || stride_.met()) return std::nullopt;
+      if (tests_ >= max_tests || stride_.met()) return std::nullopt;
       if (!fits(sight, from + distance * direction(index), radius)) continue;
       double open = distance;
       double closed = below;

@@ -268,11 +268,11 @@ std::string missed_by_lattice(double radius, const Way& way) {
 }
 
 /// The most ways that are looked for: for one robot, and for all of them.
-constexpr int kMostTestsOfRobot = 40;
-constexpr int kMostTests = 120;
+constexpr int kMaxTestsOfRobot = 40;
+constexpr int kMaxTests = 120;
 /// The most expansions for one way.
-constexpr std::int64_t kMostWayExpansions = 50'000;
-constexpr std::size_t kMostNamed = 5;
+constexpr std::int64_t kMaxWayExpansions = 50'000;
+constexpr std::size_t kMaxNamed = 5;
 
 using ZoneIndices = std::vector<std::size_t>;
 
@@ -292,7 +292,7 @@ class ZonesInTheWay {
     for (const std::size_t zone : all) {
       const std::string& id = problem_.zones()[zone].id;
       if (zone > 0 && problem_.zones()[zone - 1].id == id) continue;  // parts of a mask belong together
-      if (++tests_of_robot_ > kMostTestsOfRobot || is_over()) break;
+      if (++tests_of_robot_ > kMaxTestsOfRobot || is_over()) break;
       ZoneIndices others = closing;
       std::erase_if(others, [&](std::size_t other) { return problem_.zones()[other].id == id; });
       if (!has_way(robot, others)) closing = std::move(others);
@@ -303,7 +303,7 @@ class ZonesInTheWay {
   }
 
  private:
-  bool is_over() const { return tests_ > kMostTests || stop_.met(); }
+  bool is_over() const { return tests_ > kMaxTests || stop_.met(); }
 
   ZoneIndices zones_of(std::size_t robot) const {
     ZoneIndices zones;
@@ -339,7 +339,7 @@ class ZonesInTheWay {
     const Instance instance(*alone, options_, stop_);
     PlanState state(instance);
     if (!fits_at_start(instance, 0) && !state.ways().can_leave_place(0, stop_)) return false;
-    return fits_at_goals(instance, 0) && !state.ways().way_to_goal(0, kMostWayExpansions, stop_).none();
+    return fits_at_goals(instance, 0) && !state.ways().way_to_goal(0, kMaxWayExpansions, stop_).none();
   }
 
   const Problem& problem_;
@@ -362,7 +362,7 @@ std::string sentence(ZoneIndices closing, const std::vector<Zone>& zones) {
   const auto same = [&](std::size_t a, std::size_t b) { return zones[a].id == zones[b].id; };
   closing.erase(std::unique(closing.begin(), closing.end(), same), closing.end());
   std::string names;
-  const std::size_t named = std::min(closing.size(), kMostNamed);
+  const std::size_t named = std::min(closing.size(), kMaxNamed);
   for (std::size_t k = 0; k < named; ++k) {
     if (k > 0) names += k + 1 == closing.size() ? " and " : ", ";
     names += '"' + zones[closing[k]].id + '"';

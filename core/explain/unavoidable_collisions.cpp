@@ -109,9 +109,9 @@ class Overlaps {
 
   /// Whether all that are listed begin before `t`.
   bool has_all_before(double t) const {
-    if (all_.size() < kMostUnavoidableOfRobot) return false;
+    if (all_.size() < kMaxUnavoidableOfRobot) return false;
     const auto listed = begins();
-    return listed.size() >= kMostUnavoidableOfRobot && listed[kMostUnavoidableOfRobot - 1].first < t;
+    return listed.size() >= kMaxUnavoidableOfRobot && listed[kMaxUnavoidableOfRobot - 1].first < t;
   }
 
  private:
@@ -254,7 +254,7 @@ class CollisionSearch {
 
   void list(std::size_t robot, std::vector<UnavoidableCollision>& collisions) const {
     const auto begins = overlaps_[robot].begins();
-    for (std::size_t k = 0; k < std::min(begins.size(), kMostUnavoidableOfRobot); ++k) {
+    for (std::size_t k = 0; k < std::min(begins.size(), kMaxUnavoidableOfRobot); ++k) {
       UnavoidableCollision collision{robot, std::nullopt, std::nullopt, begins[k].first};
       const Passer& passer = passers_[begins[k].second];
       (passer.is_obstacle ? collision.obstacle : collision.other) = passer.index;

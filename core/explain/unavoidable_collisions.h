@@ -13,7 +13,7 @@ namespace fleetplan::core {
 /// The collisions that no plan avoids: of what is certain, bare disks that overlap by more than
 /// kContactTolerance and rounding.
 struct UnavoidableCollisions {
-  /// By time; each uninterrupted overlap once, of each robot the first kMostUnavoidableOfRobot.
+  /// By time; each uninterrupted overlap once, of each robot the first kMaxUnavoidableOfRobot.
   std::vector<UnavoidableCollision> collisions;
   /// By robot, empty if there are no collisions: whether it meets something at the place where it stays.
   std::vector<bool> while_staying;

@@ -212,7 +212,7 @@ Passing estimated_passing(const MovingDisk& mine, const MovingDisk& other) {
 /// they do not: by Newton's method. None if that does not lead there.
 std::optional<double> estimated_end_of_collisions(double inside, double outside, double reach,
                                                   MovingDisk mine, const MovingDisk& other) {
-  constexpr int kMostSteps = 8;
+  constexpr int kMaxSteps = 8;
   const double duration = mine.t_end - mine.t_start;
   const auto passing_at = [&](double t) {
     mine.t_start = t;
@@ -223,7 +223,7 @@ std::optional<double> estimated_end_of_collisions(double inside, double outside,
   const double far = passing_at(outside).distance;
   if (!(near < reach && reach < far)) return std::nullopt;
   double t = inside + (reach - near) / (far - near) * (outside - inside);
-  for (int k = 0; k < kMostSteps; ++k) {
+  for (int k = 0; k < kMaxSteps; ++k) {
     const Passing passing = passing_at(t);
     const double step = (reach - passing.distance) / passing.slope;
     t += step;

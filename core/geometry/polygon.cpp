@@ -124,7 +124,7 @@ double Polygon::distance_to_border(const Position& point) const {
 namespace {
 
 /// The most squares that are looked up for a segment; near more squares, all polygons are tested.
-constexpr int kMostSquares = 16;
+constexpr int kMaxSquares = 16;
 
 }  // namespace
 
@@ -167,11 +167,11 @@ bool BlockedPolygons::come_near(const Position& from, const Position& to, double
   const Position reach(distance, distance);
   const Squares box = squares(from.cwiseMin(to) - reach, from.cwiseMax(to) + reach);
   const int count = (box.last_column - box.first_column + 1) * (box.last_row - box.first_row + 1);
-  if (count > kMostSquares) {
+  if (count > kMaxSquares) {
     return std::any_of(polygons_.begin(), polygons_.end(),
                        [&](const Polygon& polygon) { return polygon.comes_near(from, to, distance); });
   }
-  // Bounded: kMostSquares squares, and the corners of all polygons, of which a request may have so many.
+  // Bounded: kMaxSquares squares, and the corners of all polygons, of which a request may have so many.
   for (int row = box.first_row; row <= box.last_row; ++row) {
     for (int column = box.first_column; column <= box.last_column; ++column) {
       const auto square = static_cast<std::size_t>(row) * kSide + static_cast<std::size_t>(column);

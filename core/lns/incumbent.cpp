@@ -136,8 +136,8 @@ WorkspacePool::WorkspacePool(PlanState& state, const Incumbent& incumbent, const
 /// With a horizon, costs have estimates that depend on the moves, so those before and after would not
 /// compare.
 bool WorkspacePool::may_add_moves() const {
-  constexpr int kMostNeighbours = 32;
-  if (!options_.any_angle || options_.horizon || options_.connectivity == kMostNeighbours) return false;
+  constexpr int kMaxNeighbours = 32;
+  if (!options_.any_angle || options_.horizon || options_.connectivity == kMaxNeighbours) return false;
   // Bounded: the goals of a request, once.
   for (std::size_t robot = 0; robot < instance_.size(); ++robot) {
     const std::size_t goals = instance_.itinerary(robot).goals.size();

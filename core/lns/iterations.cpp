@@ -187,8 +187,8 @@ bool Exhaustion::at_lower_bound() const {
 }
 
 std::optional<Exhaustion::Test> Exhaustion::next_test(std::int64_t effort) {
-  const std::int64_t most = kFirstProofExpansions + effort / kProofShare - expansions_;
-  if (is_testing_ || most <= 0) return std::nullopt;
+  const std::int64_t max_expansions = kFirstProofExpansions + effort / kProofShare - expansions_;
+  if (is_testing_ || max_expansions <= 0) return std::nullopt;
   const std::vector<std::size_t>& planned = incumbent_.planned();
   for (std::size_t k = 0; k < planned.size(); ++k) {
     const std::size_t robot = planned[next_to_test_++ % planned.size()];
@@ -201,7 +201,7 @@ std::optional<Exhaustion::Test> Exhaustion::next_test(std::int64_t effort) {
     test.bound = incumbent_.cost_with_share(robot, incumbent_.share(robot) - kLeastDelay);
     // Without a bound: the search discards by estimates, which may be too high.
     test.limits = kProof;
-    test.limits.max_expansions = most;
+    test.limits.max_expansions = max_expansions;
     test.seed = ++tests_;
     return test;
   }
@@ -257,7 +257,7 @@ constexpr std::int64_t kSearchesPerRobot = 50;
 constexpr int kFewTries = 25;
 /// A change may make the flowtime longer by this share of the mean delay of the robots, which leads out of
 /// local optima (threshold accepting; Dueck and Scheuer, 1990).
-constexpr double kMostLossShare = 0.2;
+constexpr double kMaxLossShare = 0.2;
 /// Vain iterations for each robot until the search strays: from then on, the loss doubles with as many
 /// iterations as there are robots. After kDoublings it returns to the best plan, and strays again.
 constexpr int kPatience = 4;
@@ -298,7 +298,7 @@ Iteration Iterations::choose() {
   if (!is_late_) iteration.options.tries = kFewTries;
   if (searches && random_.below(kIterationsPerAnyGain) != 0) iteration.options.min_gain_share = kMinGainShare;
   iteration.seed = random_.seed();
-  if (!for_makespan_) iteration.options.most_loss = most_loss();
+  if (!for_makespan_) iteration.options.max_loss = max_loss();
   if (for_makespan_) iteration.options.cost_limit = incumbent_.makespan();
   if (smoothed) {
     iteration.first = *smoothed;
@@ -324,11 +324,11 @@ void Iterations::begin_smoothing() {
   turns_.begin(std::move(robots));
 }
 
-double Iterations::most_loss() const {
+double Iterations::max_loss() const {
   const auto count = static_cast<double>(incumbent_.planned().size());
   double delays = 0.0;
   for (const std::size_t robot : incumbent_.planned()) delays += exhaustion_.delay(robot);
-  return kMostLossShare * delays / count * power_of_two(static_cast<double>(straying_) / count);
+  return kMaxLossShare * delays / count * power_of_two(static_cast<double>(straying_) / count);
 }
 
 std::size_t Iterations::choose_delayed(const DelayedChoice& choice) {

@@ -215,7 +215,7 @@ class Iterations {
   BestPlan& best() { return best_; }
 
  private:
-  double most_loss() const;
+  double max_loss() const;
   std::size_t choose_delayed(const DelayedChoice& choice);
   void learn(const Iteration& iteration);
   bool adopt(Iteration& iteration, Workspace& workspace);

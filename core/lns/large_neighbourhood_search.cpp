@@ -23,7 +23,7 @@ namespace {
 /// makespan they do, as the robot that arrives last is part of many.
 constexpr std::size_t kRobotsPerLag = 10;
 constexpr std::size_t kLeastLag = 4;
-constexpr std::size_t kMostLag = 16;
+constexpr std::size_t kMaxLag = 16;
 /// The most threads; each needs about as much memory as the plan itself.
 constexpr std::size_t kMaxThreads = 4;
 /// Steps of a round with a report before it, and without: at its end, threads wait for each other.
@@ -46,7 +46,7 @@ bool is_for_makespan(const PlanState& state) {
 }
 
 std::size_t lag(const PlanState& state, std::size_t planned) {
-  return is_for_makespan(state) ? kLeastLag : std::clamp(planned / kRobotsPerLag, kLeastLag, kMostLag);
+  return is_for_makespan(state) ? kLeastLag : std::clamp(planned / kRobotsPerLag, kLeastLag, kMaxLag);
 }
 
 class LargeNeighbourhoodSearch {
@@ -116,9 +116,9 @@ class LargeNeighbourhoodSearch {
 
   /// The steps of the next round, at most so many. A round ends where vertices get more neighbours, so that
   /// this depends on the steps before alone.
-  std::size_t steps_of_round(std::size_t most) {
+  std::size_t steps_of_round(std::size_t max_steps) {
     if (steps_before_more_moves_ == 0) add_moves();
-    return may_add_moves_ ? std::min(most, steps_before_more_moves_) : most;
+    return may_add_moves_ ? std::min(max_steps, steps_before_more_moves_) : max_steps;
   }
 
   void add_moves() {

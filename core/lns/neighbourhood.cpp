@@ -131,7 +131,7 @@ constexpr double kSearchEffort = 20.0;
 constexpr double kSmoothingEffort = 20.0;
 constexpr double kTimedEffort = 1.0;
 /// By how much of its cost a path is expected to be smoothed at most.
-constexpr double kMostSmoothed = 0.1;
+constexpr double kMaxSmoothed = 0.1;
 
 class NeighbourhoodPlanning {
  public:
@@ -178,7 +178,7 @@ class NeighbourhoodPlanning {
       change_.parts.push_back({robot, std::move(*result.trajectory)});
       if (k + 1 < queue_.size()) follow_for_now(change_.parts.back());
     }
-    return change_.gain > kLeastGain - options_.most_loss;
+    return change_.gain > kLeastGain - options_.max_loss;
   }
 
   bool smooth_first() {
@@ -215,7 +215,7 @@ class NeighbourhoodPlanning {
     SearchLimits loose = limits;
     const Trajectory& now = *state_.reservations().trajectory(robot);
     // What it finds may be smoothed as much.
-    loose.bound += std::min(now.smoothed_by, kMostSmoothed * now.cost);
+    loose.bound += std::min(now.smoothed_by, kMaxSmoothed * now.cost);
     if (limits.suboptimality == 0.0) loose.bound *= 1.0 + kEstimateError;
     SearchResult result = state_.plan_ignoring(robot, ignored, loose, stop_);
     effort_ += kSearchEffort;
@@ -236,18 +236,18 @@ class NeighbourhoodPlanning {
   double cost_bound(std::size_t position) const {
     const std::size_t robot = queue_[position];
     const double now = share(robot);
-    double most = now;
+    double max_share = now;
     if (position == 0) {  // the change is for its sake, so it has to gain itself
-      most = now - least_gain(robot);
+      max_share = now - least_gain(robot);
     } else {
       if (options_.gain == NeighbourhoodOptions::Gain::first) return kForever;
       double possible_gain = 0.0;  // by the robots that follow in the queue
       for (std::size_t k = position + 1; k < queue_.size(); ++k) {
         possible_gain += std::max(0.0, share(queue_[k]) - least_share(queue_[k]));
       }
-      most = now + change_.gain + possible_gain + options_.most_loss - kLeastGain;
+      max_share = now + change_.gain + possible_gain + options_.max_loss - kLeastGain;
     }
-    return cost_with_share(instance_.itinerary(robot), objective_, most);
+    return cost_with_share(instance_.itinerary(robot), objective_, max_share);
   }
 
   void enqueue_conflicting(std::size_t robot, const Trajectory& trajectory) {

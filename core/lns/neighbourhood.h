@@ -74,7 +74,7 @@ struct NeighbourhoodOptions {
     first,  // the share of the first robot has to fall, whatever the others' become
   };
   Gain gain = Gain::sum;
-  double most_loss = 0.0;        // weighted seconds, >= 0; by how much the sum may rise
+  double max_loss = 0.0;         // weighted seconds, >= 0; by how much the sum may rise
   double cost_limit = kForever;  // seconds; all costs have to be below it
   double min_gain_share = 0.0;   // [0, 1); share of the first robot's delay that it has to gain at least
   /// Limits of every search; the bound follows from the other members. None: the first robot's path is

@@ -76,9 +76,9 @@ class Smoothing {
   }
 
   void replace(std::size_t stop, std::size_t count, const std::optional<Position>& by, double gain) {
-    const double most = share(trajectory()) - share_of_seconds(gain);
-    path_.replace(stop, count, by, cost_with_share(itinerary_, objective_, most),
-                  [&](const Trajectory& tried) { return share(tried) < most; });
+    const double max_share = share(trajectory()) - share_of_seconds(gain);
+    path_.replace(stop, count, by, cost_with_share(itinerary_, objective_, max_share),
+                  [&](const Trajectory& tried) { return share(tried) < max_share; });
   }
 
   const Itinerary& itinerary_;

@@ -51,8 +51,8 @@ FineNodes::FineNodes(const OccupancyGrid& grid, const LineOfSight& sight, double
 /// Returns the limits for disks at (x, y) from the centre of a cell; all in cells.
 FineNodes::Limits FineNodes::limits(double x, double y, double radius, double ample) {
   Limits limits{0, std::numeric_limits<int>::max(), 0};
-  const double most = std::sqrt(static_cast<double>(DistanceTransform::kMostSquared)) - 2.0;
-  if (ample > most) return {std::numeric_limits<int>::max(), 0, std::numeric_limits<int>::max()};
+  const double max_distance = std::sqrt(static_cast<double>(DistanceTransform::kMaxSquared)) - 2.0;
+  if (ample > max_distance) return {std::numeric_limits<int>::max(), 0, std::numeric_limits<int>::max()};
   const int reach = static_cast<int>(std::ceil(ample)) + 2;
   // Bounded: the cells within the longest distance of the transform, a quarter of a million.
   for (int row = -reach; row <= reach; ++row) {

@@ -31,7 +31,7 @@ constexpr double kSmallDisk = 3.0;
 /// The number of columns up to which the exact test of a capsule is cheaper than halving it once more.
 constexpr int kNarrowColumns = 4;
 /// The most words that are looked at for one rectangle.
-constexpr int kMostWords = 64;
+constexpr int kMaxWords = 64;
 /// The distance, in cells, from the centre of a cell to its corners, rounded up, and to its sides.
 constexpr double kToCorner = 0.7072;
 constexpr double kToSide = 0.5;
@@ -159,11 +159,11 @@ bool LineOfSight::may_sweep(const Position& from, const Position& to, double rad
   return is_free && clears_polygons(from, to, radius);
 }
 
-double LineOfSight::fitting_radius(const Position& center, double least, double most) const {
+double LineOfSight::fitting_radius(const Position& center, double least, double max) const {
   constexpr double kMargin = 0.5e-11;  // metres; far above rounding, far below kSearchSlack
-  if (disk_fits(center, most + kMargin)) return most;
+  if (disk_fits(center, max + kMargin)) return max;
   double fits = least;
-  double too_large = most + kMargin;
+  double too_large = max + kMargin;
   while (too_large - fits > kMargin) {
     const double middle = 0.5 * (fits + too_large);
     if (middle <= fits || middle >= too_large) break;  // neighbouring doubles
@@ -183,7 +183,7 @@ LineOfSight::Bounds LineOfSight::distance_from_cells(const Position& point) cons
   const double off_center = std::sqrt(off_x * off_x + off_y * off_y);
   const double distance = std::sqrt(static_cast<double>(squared));
   return {distance - kToCorner - off_center,
-          squared < DistanceTransform::kMostSquared ? distance - kToSide + off_center : kForever};
+          squared < DistanceTransform::kMaxSquared ? distance - kToSide + off_center : kForever};
 }
 
 bool LineOfSight::free_of_cells(const Capsule& capsule) const {
@@ -223,7 +223,7 @@ bool LineOfSight::rectangles_free(const Capsule& capsule) const {
   const int row_min = std::max(0, floor_int(low - capsule.radius));
   const int row_max = std::min(rows_ - 1, last_cell(high + capsule.radius));
   const int bands = row_max / kBand - row_min / kBand + 1;
-  if ((column_max - column_min + 1) * bands <= kMostWords) {
+  if ((column_max - column_min + 1) * bands <= kMaxWords) {
     int column = column_min;
     while (column <= column_max && !is_blocked(column, row_min, row_max)) ++column;
     if (column > column_max) return true;

@@ -36,10 +36,10 @@ class LineOfSight {
   /// allowed.
   bool disk_fits(const Position& center, double radius) const { return may_sweep(center, center, radius); }
 
-  /// Returns the largest radius of a disk that may stand at `center`, to within 1e-11 m, but at most `most`
+  /// Returns the largest radius of a disk that may stand at `center`, to within 1e-11 m, but at most `max`
   /// and at least `least` (metres), even if that does not fit. Rounding does not keep such a disk from moving
   /// away.
-  double fitting_radius(const Position& center, double least, double most) const;
+  double fitting_radius(const Position& center, double least, double max) const;
 
   /// Returns whether a disk may sweep the segment, ends included. `radius` > 0 in metres.
   bool may_sweep(const Position& from, const Position& to, double radius) const;

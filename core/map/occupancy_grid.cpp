@@ -78,7 +78,7 @@ double obstacle_distance(const OccupancyGrid& grid, const Position& position, do
 
 namespace {
 
-constexpr std::uint16_t kMost = 255;
+constexpr std::uint16_t kMax = 255;
 /// Rows between two checks of the stop condition.
 constexpr std::size_t kStopStride = 16;
 
@@ -105,7 +105,7 @@ class Envelope {
     for (int place = last; place > 0; --place) {
       if (place < last) {
         const auto squared =
-            std::min<std::int64_t>(at(place, parabola(top).place), DistanceTransform::kMostSquared);
+            std::min<std::int64_t>(at(place, parabola(top).place), DistanceTransform::kMaxSquared);
         row[place - 1] = static_cast<std::uint16_t>(squared);
       }
       if (place == parabola(top).begin) --top;
@@ -151,7 +151,7 @@ bool DistanceTransform::scan_columns(const OccupancyGrid& grid, StopStride& stop
     std::uint16_t* cell = squared_.data() + static_cast<std::size_t>(row) * stride_;
     for (int column = 0; column < columns_; ++column, ++cell) {
       const int below = row > 0 ? *(cell - stride_) : 0;
-      *cell = grid.blocked({column, row}) ? 0 : static_cast<std::uint16_t>(std::min<int>(kMost, below + 1));
+      *cell = grid.blocked({column, row}) ? 0 : static_cast<std::uint16_t>(std::min<int>(kMax, below + 1));
     }
   }
   for (int row = rows_ - 1; row >= 0; --row) {

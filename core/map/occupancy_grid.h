@@ -75,7 +75,7 @@ double obstacle_distance(const OccupancyGrid& grid, const Position& position, do
 class DistanceTransform {
  public:
   /// Longer distances are cut off: 255 cells.
-  static constexpr std::uint16_t kMostSquared = 255 * 255;
+  static constexpr std::uint16_t kMaxSquared = 255 * 255;
 
   /// Computes the distances. If `stop` is met first, the object is not finished() and must not be used.
   DistanceTransform(const OccupancyGrid& grid, const StopCondition& stop);
@@ -83,7 +83,7 @@ class DistanceTransform {
   bool finished() const { return finished_; }
 
   /// The squared distance of the centre of a cell from the centre of the nearest blocked cell, in cells, at
-  /// most kMostSquared; 0 for a blocked cell. `cell` is inside the map.
+  /// most kMaxSquared; 0 for a blocked cell. `cell` is inside the map.
   std::uint16_t squared(Cell cell) const {
     const auto column = static_cast<std::size_t>(cell.column);
     const auto row = static_cast<std::size_t>(cell.row);

@@ -226,9 +226,9 @@ void Refinement::build(const Bridge& bridge) {
   std::size_t at = 0;
   while (at + 1 < way.size() && !stop_.met()) {
     std::size_t next = way.size() - 1;
-    const double most = next - at > 1 ? 2.0 * lattice_.spacing() : kForever;
+    const double max_length = next - at > 1 ? 2.0 * lattice_.spacing() : kForever;
     while (next > at + 1 && !stop_.met_at_step() &&
-           ((way[next] - way[at]).norm() > most || !sight_.may_sweep(way[at], way[next], needed_))) {
+           ((way[next] - way[at]).norm() > max_length || !sight_.may_sweep(way[at], way[next], needed_))) {
       --next;
     }
     int vertex = bridge.to;
@@ -420,8 +420,9 @@ class Brushfire {
     const Position there(nodes_.first + column * nodes_.pitch, nodes_.first + row * nodes_.pitch);
     const bool is_first = before < 0;
     const Position& last = is_first ? from_ : reached_[static_cast<std::size_t>(before)].position;
-    const double most = is_first ? kFirstNodes * nodes_.pitch : kForever;
-    if ((there - last).norm() > most || (there - from_).norm() > kFarthestNodes * lattice_.spacing()) return;
+    const double max_length = is_first ? kFirstNodes * nodes_.pitch : kForever;
+    if ((there - last).norm() > max_length || (there - from_).norm() > kFarthestNodes * lattice_.spacing())
+      return;
     if (is_first && !space_.disk_fits(there, nodes_.radius)) return;
     if (!space_.may_sweep(last, there, is_first ? std::min(radius_, nodes_.radius) : nodes_.radius)) return;
     known_.insert({column, row});

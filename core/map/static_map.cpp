@@ -77,7 +77,7 @@ class MapCache::Shelf {
   };
   using Slot = std::list<Entry>::iterator;
 
-  explicit Shelf(std::size_t most_bytes) : most_bytes_(most_bytes) {}
+  explicit Shelf(std::size_t max_bytes) : max_bytes_(max_bytes) {}
 
   /// Returns the place of the map that equals the grid, and counts one more user of it; none if there is
   /// none.
@@ -95,7 +95,7 @@ class MapCache::Shelf {
     std::list<Entry> entry{{hash, map, 1, 0}};
     const std::lock_guard lock(mutex_);
     if (const std::optional<Slot> known = take_known(hash, map->grid())) return known;
-    if (by_hash_.count(hash) >= kMostOfAHash) return std::nullopt;
+    if (by_hash_.count(hash) >= kMaxOfAHash) return std::nullopt;
     by_hash_.emplace(hash, entry.begin());
     used_.splice(used_.begin(), entry);
     return used_.begin();
@@ -108,14 +108,14 @@ class MapCache::Shelf {
     const std::lock_guard lock(mutex_);
     if (--entry->users > 0) return;
     entry->bytes = bytes_of(*entry);
-    if (entry->bytes > most_bytes_) {
+    if (entry->bytes > max_bytes_) {
       by_hash_.erase(index_of(entry));
       leaving.splice(leaving.end(), used_, entry);
       return;
     }
     unused_.splice(unused_.begin(), used_, entry);
     unused_bytes_ += entry->bytes;
-    while (unused_bytes_ > most_bytes_) {
+    while (unused_bytes_ > max_bytes_) {
       const Slot last = std::prev(unused_.end());
       unused_bytes_ -= last->bytes;
       by_hash_.erase(index_of(last));
@@ -132,7 +132,7 @@ class MapCache::Shelf {
 
  private:
   /// Maps of one hash; more are made by nobody but who wants to slow the cache down.
-  static constexpr std::size_t kMostOfAHash = 8;
+  static constexpr std::size_t kMaxOfAHash = 8;
 
   static std::size_t bytes_of(const Entry& entry) { return entry.map->bytes() + kEntryBytes; }
 
@@ -153,7 +153,7 @@ class MapCache::Shelf {
     return std::find_if(begin, end, [&](const auto& item) { return item.second == entry; });
   }
 
-  const std::size_t most_bytes_;
+  const std::size_t max_bytes_;
   mutable std::mutex mutex_;
   std::list<Entry> used_;
   std::list<Entry> unused_;  // those used most recently first
@@ -163,8 +163,8 @@ class MapCache::Shelf {
   std::uint64_t misses_ = 0;
 };
 
-MapCache::MapCache(std::size_t most_bytes)
-    : shelf_(most_bytes > 0 ? std::make_shared<Shelf>(most_bytes) : nullptr) {}
+MapCache::MapCache(std::size_t max_bytes)
+    : shelf_(max_bytes > 0 ? std::make_shared<Shelf>(max_bytes) : nullptr) {}
 
 std::shared_ptr<const StaticMap> MapCache::map_of(OccupancyGrid grid, const StopCondition& stop) {
   if (!shelf_ || grid.cell_count() < kFewestCells) return static_map(std::move(grid), stop);

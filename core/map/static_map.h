@@ -76,7 +76,7 @@ class MapCache {
   static constexpr std::size_t kEntryBytes = 640;
 
   /// A cache of at most so many bytes. With 0 bytes it keeps no map and counts nothing.
-  explicit MapCache(std::size_t most_bytes);
+  explicit MapCache(std::size_t max_bytes);
 
   /// Returns the map of a grid; null if `stop` is met before it is made. The map may outlive the cache.
   /// Throws std::bad_alloc if the job of this thread is not granted the memory.

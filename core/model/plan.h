@@ -18,7 +18,7 @@ namespace fleetplan::core {
 /// for every robot are not quadratic in the robots.
 class RobotList {
  public:
-  static constexpr std::size_t kMostListed = 20;
+  static constexpr std::size_t kMaxListed = 20;
 
   using value_type = std::size_t;
   using const_iterator = std::vector<std::size_t>::const_iterator;
@@ -27,7 +27,7 @@ class RobotList {
   RobotList(std::initializer_list<std::size_t> all) : RobotList(std::vector<std::size_t>(all)) {}
   RobotList(std::vector<std::size_t> all)  // NOLINT: implicit
       : total_(all.size()) {
-    if (all.size() > kMostListed) all = std::vector<std::size_t>(all.begin(), all.begin() + kMostListed);
+    if (all.size() > kMaxListed) all = std::vector<std::size_t>(all.begin(), all.begin() + kMaxListed);
     listed_ = std::move(all);
   }
 
@@ -103,7 +103,7 @@ struct UnavoidableCollision {
 
 /// The most unavoidable collisions of one robot in a plan; later ones are not listed. If a robot has so many,
 /// later collisions of what it certainly does are exempt, too. So the list grows with the robots only.
-inline constexpr std::size_t kMostUnavoidableOfRobot = 8;
+inline constexpr std::size_t kMaxUnavoidableOfRobot = 8;
 
 /// The sum (flowtime) and the maximum (makespan) of the planned robots' costs, or of their lower bounds, in
 /// seconds.
@@ -133,7 +133,7 @@ struct Plan {
   std::vector<RobotPlan> plans;
   std::vector<Unplanned> unplanned;
   std::vector<UnavoidableCollision> unavoidable =
-      {};                         // by time; at most kMostUnavoidableOfRobot for each robot
+      {};                         // by time; at most kMaxUnavoidableOfRobot for each robot
   bool unavoidable_known = true;  // false if finding them was given up: then the plan cannot be checked
   Objectives objectives;
   std::optional<Objectives> estimated =

@@ -21,7 +21,7 @@ namespace fleetplan::core {
 namespace {
 
 /// The most pairs of robots whose faults are found.
-constexpr std::size_t kMostPairs = 10'000;
+constexpr std::size_t kMaxPairs = 10'000;
 /// Halvings of a move to find out where it meets a wall: below a nanometre.
 constexpr int kHalvings = 60;
 /// Places of a move where the overlap with a wall is measured, for the message.
@@ -201,7 +201,7 @@ class CommittedFaults {
     for (std::size_t i = 0; i < robots_.size(); ++i) {
       if (!is_committed(i)) continue;
       for (const Disk& mine : motions_[i]) {
-        if (stop_.met() || pairs_.size() >= kMostPairs) return;
+        if (stop_.met() || pairs_.size() >= kMaxPairs) return;
         tree.visit(mine.motion, mine.radius, 0.0, [&](std::size_t k) {
           compare(i, mine, owners[k], tree[k]);
           return true;
@@ -308,10 +308,10 @@ class FaultSearch {
 
   /// Counts a fault of these robots. Returns whether it is to be listed.
   bool is_listed(std::size_t robot, std::size_t other) {
-    if (listed_of_robot_.empty()) return faults_.listed.size() < ProblemFaults::kMostListed;
+    if (listed_of_robot_.empty()) return faults_.listed.size() < ProblemFaults::kMaxListed;
     std::size_t& of_robot = listed_of_robot_[robot];
     std::size_t& of_other = listed_of_robot_[other];
-    if (std::min(of_robot, of_other) >= ProblemFaults::kMostListedOfARobot) return false;
+    if (std::min(of_robot, of_other) >= ProblemFaults::kMaxListedOfARobot) return false;
     ++of_robot;
     if (other != robot) ++of_other;
     return true;

@@ -40,9 +40,9 @@ struct ProblemFault {
 
 /// The faults of a map and a set of robots.
 struct ProblemFaults {
-  static constexpr std::size_t kMostListed = 20;
-  static constexpr std::size_t kMostListedOfARobot = 3;  // see ProblemConditions
-  std::vector<ProblemFault> listed;                      // the first ones, in the order of the robots
+  static constexpr std::size_t kMaxListed = 20;
+  static constexpr std::size_t kMaxListedOfARobot = 3;  // see ProblemConditions
+  std::vector<ProblemFault> listed;                     // the first ones, in the order of the robots
   std::size_t total = 0;
   bool finished = true;  // false when the stop condition was met first; then there may be more
 };

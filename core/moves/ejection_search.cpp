@@ -12,7 +12,7 @@ namespace {
 constexpr double kFirstIgnored = 0.125;
 /// A robot for which others were ejected is protected during the next call, and up to so many. With 10, two
 /// robots of a crowd ejected each other for ever.
-constexpr std::size_t kMostProtectedCalls = 30;
+constexpr std::size_t kMaxProtectedCalls = 30;
 /// A search that takes more expansions counts as failed: another one ignores more robots.
 constexpr std::int64_t kMaxEjectionExpansions = 5'000;
 /// Finds paths with fewer expansions than the usual weight. They are improved later.
@@ -38,7 +38,7 @@ SearchResult EjectionSearch::plan(std::size_t robot, Robots planned, const std::
     const Robots ignored(planned.begin(), planned.begin() + static_cast<std::ptrdiff_t>(count));
     SearchResult result = state_.plan_ignoring(robot, ignored, ejection_limits(), stop_);
     if (!result.trajectory) continue;
-    protected_until_[robot] = calls_ + 2 + static_cast<std::int64_t>(random_.below(kMostProtectedCalls));
+    protected_until_[robot] = calls_ + 2 + static_cast<std::int64_t>(random_.below(kMaxProtectedCalls));
     return eject_fewer(robot, std::move(result), planned);
   }
   return state_.plan_ignoring(robot, planned, {}, stop_);
@@ -54,11 +54,12 @@ void EjectionSearch::sort_by_ejection(Robots& planned, const std::vector<int>& f
 
 /// Returns how many robots to ignore in each attempt, ascending; none of them is protected.
 std::vector<std::size_t> EjectionSearch::counts_to_ignore(const Robots& planned) const {
-  const auto most = static_cast<std::size_t>(
+  const auto max_count = static_cast<std::size_t>(
       std::count_if(planned.begin(), planned.end(), [&](std::size_t other) { return !is_protected(other); }));
   std::vector<std::size_t> counts;
   for (double share = kFirstIgnored; share <= 1.0; share *= 2.0) {
-    const auto count = std::min(most, static_cast<std::size_t>(share * static_cast<double>(planned.size())));
+    const auto count =
+        std::min(max_count, static_cast<std::size_t>(share * static_cast<double>(planned.size())));
     if (count > (counts.empty() ? 0 : counts.back())) counts.push_back(count);
   }
   return counts;

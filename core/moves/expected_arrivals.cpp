@@ -34,7 +34,7 @@ constexpr std::size_t kStopStride = 64;
 /// Rank by which a robot is behind those who pass its goal, and how often ranks are raised because of others
 /// whose ranks were raised. Robots that wait for each other never come to an end.
 constexpr double kBehind = 1e-6;
-constexpr int kMostSweeps = 8;
+constexpr int kMaxSweeps = 8;
 
 /// A robot passes the goal of another one.
 struct Passage {
@@ -136,7 +136,7 @@ class ExpectedArrivals {
     for (const std::size_t robot : robots_) ranks[robot] = rank(robot);
     bool changed = true;
     // Bounded: a few times the passages, which were found one by one.
-    for (int sweep = 0; changed && sweep < kMostSweeps; ++sweep) {
+    for (int sweep = 0; changed && sweep < kMaxSweeps; ++sweep) {
       changed = false;
       for (const std::size_t robot : robots_) {
         for (const std::size_t other : passing[robot]) {

@@ -15,11 +15,11 @@ namespace {
 
 /// The most configurations of a search, places of robots in all of them together, and constraints: 40, 64 and
 /// 24 MB. A thousand robots in corridors take a tenth of the places.
-constexpr std::size_t kMostNodes = 100'000;
-constexpr std::size_t kMostPlaces = 4'000'000;
-constexpr std::size_t kMostConstraints = 1'000'000;
+constexpr std::size_t kMaxNodes = 100'000;
+constexpr std::size_t kMaxPlaces = 4'000'000;
+constexpr std::size_t kMaxConstraints = 1'000'000;
 /// How often the search is tried, each time with other random numbers.
-constexpr int kMostTries = 4;
+constexpr int kMaxTries = 4;
 /// The most vertices of a corridor that are looked at for robots that have to pass each other.
 constexpr int kLongestCorridor = 256;
 
@@ -29,7 +29,7 @@ using StepCosts = std::vector<std::array<std::uint8_t, 4>>;
 /// a warehouse with corridors of one cell, 600 and 1000 robots take 0.63 of the time of all together by it;
 /// half and one and a half times as much do as well, and costs for all others who pass do worse.
 constexpr std::uint8_t kStep = 8;
-constexpr double kMostAgainstTraffic = 8.0;
+constexpr double kMaxAgainstTraffic = 8.0;
 
 /// The direction of the step back.
 constexpr std::size_t opposite(std::size_t direction) { return direction ^ 1U; }
@@ -120,7 +120,7 @@ StepCosts against_traffic(const StepProblem& problem, const StepDistances& alone
         if (next == StepProblem::kNone) continue;
         const double with = passing[vertex][direction];
         const double against = passing[static_cast<std::size_t>(next)][opposite(direction)];
-        const double added = kMostAgainstTraffic * against / (with + against + 1.0);
+        const double added = kMaxAgainstTraffic * against / (with + against + 1.0);
         costs[vertex][direction] = static_cast<std::uint8_t>(kStep + added);
       }
     }
@@ -400,7 +400,7 @@ class Lacam {
     Configuration starts;
     for (const StepProblem::Mover& mover : problem_.movers) starts.push_back(mover.start);
     add(std::move(starts), nullptr);
-    while (!open_.empty() && constraints_ < kMostConstraints && !stop_.met()) {
+    while (!open_.empty() && constraints_ < kMaxConstraints && !stop_.met()) {
       Node& node = *open_.back();
       if (node.at == goals_) return path_to(node);
       if (node.next == node.made.size()) {
@@ -416,7 +416,7 @@ class Lacam {
       const auto known = known_.find(bytes_of(*made));
       if (known != known_.end()) {
         open_.push_back(known->second);
-      } else if (nodes_.size() >= kMostNodes || nodes_.size() * problem_.movers.size() >= kMostPlaces) {
+      } else if (nodes_.size() >= kMaxNodes || nodes_.size() * problem_.movers.size() >= kMaxPlaces) {
         return std::nullopt;
       } else {
         add(std::move(*made), &node);
@@ -495,7 +495,7 @@ std::optional<std::vector<Configuration>> plan_steps(const StepProblem& problem,
                                                      const StopCondition& stop) {
   if (problem.movers.empty()) return std::vector<Configuration>{{}};
   const std::size_t vertices = problem.graphs.front().size();
-  if (problem.movers.size() * vertices > StepProblem::kMostDistances) return std::nullopt;
+  if (problem.movers.size() * vertices > StepProblem::kMaxDistances) return std::nullopt;
   if (have_to_pass_on_a_line(problem, stop)) return std::nullopt;
   const StepCosts even(vertices, {kStep, kStep, kStep, kStep});
   StepDistances alone;
@@ -504,7 +504,7 @@ std::optional<std::vector<Configuration>> plan_steps(const StepProblem& problem,
   // Ways against all traffic may be too long to count.
   const StepCosts costs = against_traffic(problem, alone, even, stop);
   const StepDistances& first = with_traffic.find(problem, costs, stop) ? with_traffic : alone;
-  for (int k = 0; k < kMostTries && !stop.met(); ++k) {
+  for (int k = 0; k < kMaxTries && !stop.met(); ++k) {
     Lacam search(problem, alone, first, random, stop);
     auto plan = search.run();
     if (plan || search.has_no_plan()) return plan;

@@ -14,7 +14,7 @@ namespace fleetplan::core {
 struct StepProblem {
   static constexpr int kNone = -1;
   /// Robots times vertices: with more, the distances to all goals take too much memory.
-  static constexpr std::size_t kMostDistances = 20'000'000;
+  static constexpr std::size_t kMaxDistances = 20'000'000;
   /// Vertices between two checks of the stop condition.
   static constexpr std::size_t kVerticesBetweenPolls = 4096;
   /// By vertex and direction, the vertices that one step reaches, or kNone. The step back from there has the

@@ -19,7 +19,7 @@ namespace {
 /// the step between them is nearer to it than one spacing.
 constexpr double kClear = 1.1181;
 /// The most vertices of all graphs together: 64 MB.
-constexpr std::size_t kMostVertices = 4'000'000;
+constexpr std::size_t kMaxVertices = 4'000'000;
 
 bool is_simple(const Instance& instance, std::size_t robot) {
   const Itinerary& itinerary = instance.itinerary(robot);
@@ -42,7 +42,7 @@ class StepGraph {
     }
     const Lattice& lattice = instance_.lattice(robots_.front());
     const auto vertices = static_cast<std::size_t>(lattice.vertex_count());
-    if (robots_.size() * vertices > StepProblem::kMostDistances) return std::nullopt;
+    if (robots_.size() * vertices > StepProblem::kMaxDistances) return std::nullopt;
     std::vector<bool> is_start(vertices, false);
     std::vector<bool> is_goal(vertices, false);
     StepProblem problem;
@@ -68,7 +68,7 @@ class StepGraph {
       const auto [entry, is_new] = known.emplace(&space, problem.graphs.size());
       problem.movers[k].graph = entry->second;
       if (!is_new) continue;
-      if (known.size() * vertices > kMostVertices) return std::nullopt;
+      if (known.size() * vertices > kMaxVertices) return std::nullopt;
       problem.graphs.push_back(neighbours(space, lattice, stop));
       if (stop.met()) return std::nullopt;
     }

@@ -11,18 +11,18 @@ namespace fleetplan::core {
 namespace {
 
 /// The expansions of each search: a robot that moves aside is seldom far from its way.
-constexpr std::int64_t kMostExpansions = 20'000;
+constexpr std::int64_t kMaxSearchExpansions = 20'000;
 /// The places along the way of a robot where it may move aside, for each of its moves and in all. They are as
 /// far from each other as the two robots in contact.
 constexpr int kSitesOfAMove = 6;  // to both sides of the nearest one
-constexpr std::size_t kMostSites = 12;
+constexpr std::size_t kMaxSites = 12;
 /// How much farther than in contact the two robots pass, where there is room for it. In contact, each would
 /// have to wait until the other one is beside it.
 constexpr double kPassingDistance = 1.1;
 /// Bisections of the distance to a wall: more exact than a millimetre, for robots of up to a kilometre.
 constexpr int kBisections = 20;
 /// How often each robot is planned again for less cost.
-constexpr int kMostReplans = 4;
+constexpr int kMaxReplans = 4;
 /// Seconds: a gain below this is rounding.
 constexpr double kLeastGain = 1e-6;
 
@@ -139,7 +139,7 @@ class MakingRoom {
     std::stable_sort(sites.begin(), sites.end(), [&](const Site& a, const Site& b) {
       return (a.at - met->at).squaredNorm() < (b.at - met->at).squaredNorm();
     });
-    if (sites.size() > kMostSites) sites.resize(kMostSites);
+    if (sites.size() > kMaxSites) sites.resize(kMaxSites);
     sites.insert(sites.begin(), *met);
     return sites;
   }
@@ -157,19 +157,19 @@ class MakingRoom {
     return PassingPlaces{site.at + share * *mine * aside, site.at - share * *theirs * aside};
   }
 
-  /// How far a robot may move aside from a place, metres, up to `most`; none if it does not fit there.
+  /// How far a robot may move aside from a place, metres, up to `max`; none if it does not fit there.
   std::optional<double> room(std::size_t robot, const Position& from, const Position& aside,
-                             double most) const {
+                             double max) const {
     const View& view = instance_.views(robot)[0];
     const auto is_free = [&](double distance) {
       return view.free_space->may_sweep(from, from + distance * aside, view.body.wall_radius);
     };
     if (!is_free(0.0)) return std::nullopt;
-    if (is_free(most)) return most;
+    if (is_free(max)) return max;
     double least = 0.0;
     for (int k = 0; k < kBisections; ++k) {
-      const double middle = 0.5 * (least + most);
-      (is_free(middle) ? least : most) = middle;
+      const double middle = 0.5 * (least + max);
+      (is_free(middle) ? least : max) = middle;
     }
     return least;
   }
@@ -186,7 +186,7 @@ class MakingRoom {
     for (const std::size_t robot : robots_) {
       if (robot == first || robot == second) continue;
       reservations_.remove(robot);
-      SearchResult result = state_.plan(robot, {.max_expansions = kMostExpansions}, stop_);
+      SearchResult result = state_.plan(robot, {.max_expansions = kMaxSearchExpansions}, stop_);
       if (!result.trajectory) return false;
       reservations_.follow(robot, std::move(*result.trajectory));
     }
@@ -208,7 +208,8 @@ class MakingRoom {
   bool follow_to(std::size_t robot, std::vector<Goal> goals) {
     const double held_for = reservations_.holds_place_for(robot);
     reservations_.remove(robot);
-    SearchResult result = state_.plan_to(robot, std::move(goals), {.max_expansions = kMostExpansions}, stop_);
+    SearchResult result =
+        state_.plan_to(robot, std::move(goals), {.max_expansions = kMaxSearchExpansions}, stop_);
     if (!result.trajectory) {
       reservations_.reserve_place(robot, held_for);
       return false;
@@ -244,12 +245,12 @@ bool make_room(PlanState& state, const std::vector<std::size_t>& robots, const S
 
 void replan_for_less(PlanState& state, const std::vector<std::size_t>& robots, const StopCondition& stop) {
   bool is_any_better = true;
-  for (int k = 0; k < kMostReplans && is_any_better; ++k) {
+  for (int k = 0; k < kMaxReplans && is_any_better; ++k) {
     is_any_better = false;
     for (const std::size_t robot : robots) {
       if (stop.met()) return;
       const SearchLimits limits{.bound = state.reservations().trajectory(robot)->cost - kLeastGain,
-                                .max_expansions = kMostExpansions};
+                                .max_expansions = kMaxSearchExpansions};
       is_any_better = state.replan(robot, limits, stop).trajectory.has_value() || is_any_better;
     }
   }

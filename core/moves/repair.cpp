@@ -20,7 +20,7 @@ namespace {
 constexpr int kMaxFailuresOfRobot = 40;
 /// How often robots that yield are asked to make way for one robot. It may be in a cycle with others after
 /// that, which changes of the order break.
-constexpr int kMostAsksForRobot = 5;
+constexpr int kMaxAsksForRobot = 5;
 /// The failures of a robot after which others are no longer ejected for it: it may be in a cycle that only a
 /// start delay breaks. In crowds that fill two fifths of the floor hardly any robot fails so often.
 constexpr int kMaxEjectionsForRobot = 10;
@@ -212,7 +212,7 @@ class Repair {
 
   /// Whether robots that yield may be what keeps this one from its goals, or makes it late.
   bool is_held_up(std::size_t robot, const SearchResult& result) {
-    if (!any_yields_ || asks_[robot] >= kMostAsksForRobot) return false;
+    if (!any_yields_ || asks_[robot] >= kMaxAsksForRobot) return false;
     if (!result.trajectory) return has_failed(robot, result);
     if (result.trajectory->gains_nothing) return true;
     const double in_time = state_.ways().estimated_alone(robot, stop_) + cost_of_making_way(robot);
@@ -220,7 +220,7 @@ class Repair {
   }
 
   /// What the robot may cost at most, past those that yield, to be worth it for one of them.
-  double most_cost(std::size_t robot, const SearchResult& in_place) const {
+  double max_cost(std::size_t robot, const SearchResult& in_place) const {
     if (!in_place.trajectory || in_place.trajectory->gains_nothing) return kForever;
     return in_place.trajectory->cost - cost_of_making_way(robot);
   }
@@ -241,7 +241,7 @@ class Repair {
   bool passes_yielding(std::size_t robot, const SearchResult& in_place) {
     ++asks_[robot];
     SearchLimits limits = quick_search_of(robot);
-    limits.bound = most_cost(robot, in_place);
+    limits.bound = max_cost(robot, in_place);
     SearchResult result = plan_past_yielding(state_, robot, limits, stop_);
     if (!result.trajectory || result.trajectory->gains_nothing) return false;
     const std::vector<std::size_t> asked = reservations_.conflicting_robots(robot, *result.trajectory);
@@ -259,7 +259,7 @@ class Repair {
 
   /// Plans others so that they leave the goal of this robot when they have been served, and then this one: so
   /// it does not wait in their way out. Returns whether it has a plan now; if not, nothing has changed.
-  bool comes_after(std::size_t robot, const std::vector<std::size_t>& others, double most_cost) {
+  bool comes_after(std::size_t robot, const std::vector<std::size_t>& others, double max_cost) {
     std::vector<std::pair<std::size_t, Trajectory>> before;
     for (const std::size_t other : others) {
       if (!reservations_.trajectory(other) || state_.instance().itinerary(other).is_idle) continue;
@@ -270,7 +270,7 @@ class Repair {
     }
     if (before.empty()) return false;
     SearchResult result = plan_quickly(robot);
-    if (result.trajectory && !result.trajectory->gains_nothing && result.trajectory->cost < most_cost) {
+    if (result.trajectory && !result.trajectory->gains_nothing && result.trajectory->cost < max_cost) {
       reservations_.follow(robot, std::move(*result.trajectory));
       return true;
     }

@@ -106,7 +106,7 @@ class PlansThatHold {
   }
 
   static bool is_complete(const VerifyReport& report) {
-    return report.violations.size() == report.violation_count && report.violation_count < kMostCollisions;
+    return report.violations.size() == report.violation_count && report.violation_count < kMaxCollisions;
   }
 
   /// Whether a margin is violated. Only the deepest such violation of each pair is listed, so a conflict with
@@ -157,7 +157,7 @@ class PlansThatHold {
   bool is_unavoidable(const Violation& violation, std::size_t staying, std::size_t committed) const {
     const double until = robots_[committed].committed_until();
     return stays(staying) && violation.t_begin && *violation.t_begin >= robots_[staying].committed_until() &&
-           *violation.t_begin < until && violation.t <= until + kMostTolerance;
+           *violation.t_begin < until && violation.t <= until + kMaxTolerance;
   }
 
   /// Whether the violation is one of what the robot does in any case: of its commitment; or of a margin,

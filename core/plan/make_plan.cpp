@@ -18,12 +18,12 @@ namespace fleetplan::core {
 namespace {
 
 /// How often other poses are tried for robots that have no plan with theirs.
-constexpr int kMostSecondChoices = 2;
+constexpr int kMaxSecondChoices = 2;
 
 /// Returns when what is decided without a search, at and after the end of `stop`, has to be.
 StopCondition::Clock::time_point end_without_search(const StopCondition& stop) {
   if (stop.deadline() == StopCondition::Clock::time_point::max()) return stop.deadline();
-  return std::max(stop.deadline(), StopCondition::Clock::now()) + budget::kMostForPrevious;
+  return std::max(stop.deadline(), StopCondition::Clock::now()) + budget::kMaxForPrevious;
 }
 
 /// Returns the end of planning, after which the plan is checked; later if there are previous plans.
@@ -149,7 +149,7 @@ class PlanMaker {
 
   /// Returns the plan, or one with other poses for open goals in which fewer robots are unplanned.
   Attempt with_other_poses(Attempt best) {
-    for (int k = 0; best.task.open && !best.plan.unplanned.empty() && k < kMostSecondChoices; ++k) {
+    for (int k = 0; best.task.open && !best.plan.unplanned.empty() && k < kMaxSecondChoices; ++k) {
       PlanTask other = best.task;
       if (!give_up_poses(best.plan, other, stop_)) break;
       if (stop_.met() || !choose_poses(other)) {
@@ -171,7 +171,7 @@ class PlanMaker {
                                                  : "The time budget was spent before planning could begin.";
     return plan_without_search(
         task.problem, task.options, detail,
-        means_.stop.even_if_cancelled(StopCondition::Clock::now() + budget::kMostForPrevious));
+        means_.stop.even_if_cancelled(StopCondition::Clock::now() + budget::kMaxForPrevious));
   }
 
   MadePlan checked(Attempt made, bool is_searched) const {

@@ -102,7 +102,7 @@ struct MadePlan {
 /// 1. If `stop` is met and there are no previous plans, which are kept whatever the budget, nobody moves.
 /// 2. Poses of open goals are chosen by when robots arrive; if that takes too long, those of `task` stay.
 /// 3. plan(), or, if the memory does not suffice, a plan without search.
-/// 4. Robots without a plan give up their poses for others, at most kMostSecondChoices times, as long as that
+/// 4. Robots without a plan give up their poses for others, at most kMaxSecondChoices times, as long as that
 ///    makes more plans.
 /// 5. The check. If it takes too long, robots that would move stay (see check()).
 ///

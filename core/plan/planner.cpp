@@ -67,12 +67,12 @@ StopCondition briefly(const StopCondition& stop) {
                                                      : stop.until(Clock::now() + budget::kTimeForTheEnd);
 }
 
-StopCondition beyond_budget(const StopCondition& stop, std::chrono::milliseconds most) {
+StopCondition beyond_budget(const StopCondition& stop, std::chrono::milliseconds max_time) {
   using Clock = StopCondition::Clock;
   if (stop.deadline() == Clock::time_point::max() && !stop.cancelled()) return stop;
   const auto now = Clock::now();
-  if (stop.cancelled()) return stop.even_if_cancelled(now + most).despite_memory();
-  return stop.until(std::max(stop.deadline(), now) + most).despite_memory();
+  if (stop.cancelled()) return stop.even_if_cancelled(now + max_time).despite_memory();
+  return stop.until(std::max(stop.deadline(), now) + max_time).despite_memory();
 }
 
 /// Returns a condition that leaves at least a little time for planning.
@@ -113,7 +113,7 @@ KeptPlans plans_to_begin_with(const Problem& problem, const PlanOptions& options
 KeptPlans certain_plans(const KeptPlans& previous, const Instance& instance, const StopCondition& stop) {
   if (std::count(previous.kept.begin(), previous.kept.end(), true) == 0) return {};
   KeptPlans certain = keep_if_others_stay(instance.problem(), instance.options(), previous,
-                                          beyond_budget(stop, budget::kMostForPrevious));
+                                          beyond_budget(stop, budget::kMaxForPrevious));
   return certain.cut_off ? KeptPlans{} : certain;
 }
 
@@ -148,7 +148,7 @@ std::vector<std::size_t> changeable_robots(const PlanState& state, std::vector<s
 
 /// The effort for undoing the vain moves of one robot. Whether a robot without goals of its own may stay
 /// where it is takes none.
-constexpr std::int64_t kMostExpansions = 2'000;
+constexpr std::int64_t kMaxExpansions = 2'000;
 /// Seconds: a gain below this is rounding.
 constexpr double kLeastGain = 1e-6;
 
@@ -177,7 +177,7 @@ bool undo_vain_moves(PlanState& state, const StopCondition& stop) {
   if (robots.empty()) return false;
   if (stop.met()) return true;
   reservations.resume();
-  std::vector<std::int64_t> expansions_left(state.instance().size(), kMostExpansions);
+  std::vector<std::int64_t> expansions_left(state.instance().size(), kMaxExpansions);
   // One that no longer makes way may have been what others made way for.
   for (bool is_any_undone = true; is_any_undone;) {
     is_any_undone = false;
@@ -280,7 +280,7 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
   Random random(options.seed);
 
   const KeptPlans previous =
-      plans_to_begin_with(problem, options, beyond_budget(stop, budget::kMostForPrevious));
+      plans_to_begin_with(problem, options, beyond_budget(stop, budget::kMaxForPrevious));
   std::vector<std::optional<Unplanned>> unplanned = triage(state, stop, previous.kept);
   std::vector<std::size_t> movers = robots_to_plan(state.reservations(), unplanned);
   PrioritizedResult prioritized = first_plan(state, previous, movers, random, stop, progress);
@@ -292,7 +292,7 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
   cut_off = smooth_briefly(state, movers, random, stop) || cut_off;
   unplanned = with_zones_named(problem, options, std::move(unplanned), stop);
   const UnavoidableCollisions found =
-      find_unavoidable(state.reservations(), unplanned, beyond_budget(stop, budget::kMostForUnavoidable));
+      find_unavoidable(state.reservations(), unplanned, beyond_budget(stop, budget::kMaxForUnavoidable));
   progress.plan_found(objectives_of(state.reservations()));
 
   const bool anytime = options.mode == PlanOptions::Mode::anytime;

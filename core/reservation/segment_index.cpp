@@ -15,7 +15,7 @@ constexpr double kSideRatio = 2.0;
 constexpr double kMaxBuckets = 2.5e5;
 constexpr double kMaxBucketsPerRobot = 4096.0;
 /// The sides of buckets within which a disk at rest is entered: into a few hundred buckets of its layer.
-constexpr double kMostReach = 8.0;
+constexpr double kMaxReach = 8.0;
 /// The side of a bucket to that of one in the layer before: 2 to the power of this.
 constexpr int kLayerExponent = 2;
 
@@ -42,8 +42,9 @@ double bucket_size(double width, double height, double cell_size, const std::vec
   const double typical = sorted.empty() ? cell_size : sorted[sorted.size() / 2];
   const auto classes = static_cast<double>(class_radii(radii).size());
   const auto robots = static_cast<double>(std::max<std::size_t>(radii.size(), 1));
-  const double most = std::min(kMaxBuckets, kMaxBucketsPerRobot * robots);
-  return std::max(kSideRatio * std::max(cell_size, typical), std::sqrt(width * height * classes / most));
+  const double max_buckets = std::min(kMaxBuckets, kMaxBucketsPerRobot * robots);
+  return std::max(kSideRatio * std::max(cell_size, typical),
+                  std::sqrt(width * height * classes / max_buckets));
 }
 
 }  // namespace
@@ -94,7 +95,7 @@ int SegmentIndex::level_of(const RadiusClass& radius_class, const Occupant& occu
   const double reach = occupant.radius + radius_class.radius + occupant.disk.sag();
   const double most = std::max(width_, height_);
   int level = 0;
-  while (reach > kMostReach * size_of(level) && size_of(level) < most) ++level;
+  while (reach > kMaxReach * size_of(level) && size_of(level) < most) ++level;
   return level;
 }
 

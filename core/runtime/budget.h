@@ -20,7 +20,7 @@ namespace fleetplan::core::budget {
 //  3. Poses of goals that have several: at most a quarter (kShareOfPoses), and again before each try with
 //     other poses.
 //  4. Previous plans, if there are any: their check may last until 500 ms after the budget
-//     (kMostForPrevious), as they are kept whatever the budget.
+//     (kMaxForPrevious), as they are kept whatever the budget.
 //  5. First plan: what is left, as long as robots have no plan. Half of it (kShareBeforeSafePlan) is for
 //     one order and its repairs, of which a fifth (kShareOfOrder) may find the order of expected
 //     arrivals; steps of the whole fleet have two fifths of what is left (kShareOfSteps).
@@ -29,7 +29,7 @@ namespace fleetplan::core::budget {
 //     plan or the time is over. Robots that gave way to others return to their previous plans in the last
 //     twentieth (kShareAroundKept).
 //  7. Smoothing of the first plan: at most three tenths (kShareOfBriefSmoothing). Then unavoidable
-//     collisions: until 150 ms after the budget (kMostForUnavoidable), as no plan can be checked without
+//     collisions: until 150 ms after the budget (kMaxForUnavoidable), as no plan can be checked without
 //     them.
 //  8. Bounds: in mode `anytime` at most a fifth (kShareOfBounds), otherwise what is left.
 //  9. Improvement, in mode `anytime`: what is left, the last tenth for smoothing (kShareOfSmoothing).
@@ -64,8 +64,8 @@ inline constexpr int kManyCells = 4'000'000;
 inline Duration for_check_and_answer(Duration budget, std::size_t robots) {
   constexpr std::chrono::milliseconds kLeast{25};
   constexpr std::chrono::microseconds kForARobot{400};
-  const Duration most = std::max<Duration>(kLeast, static_cast<std::int64_t>(robots) * kForARobot);
-  return std::min(budget / 20, most);
+  const Duration max = std::max<Duration>(kLeast, static_cast<std::int64_t>(robots) * kForARobot);
+  return std::min(budget / 20, max);
 }
 
 /// Returns the part of the budget after planning, to check the plan and write the answer: see
@@ -96,7 +96,7 @@ inline constexpr double kShareOfPoses = 0.25;
 /// The check, which decides whether they are kept, takes about 10 ms for 500 robots; the limit is for plans
 /// in which many robots meet in one small area, and for a busy machine. The same for plans without any
 /// search.
-inline constexpr std::chrono::milliseconds kMostForPrevious{500};
+inline constexpr std::chrono::milliseconds kMaxForPrevious{500};
 /// The least time for planning others around robots that keep their plans, also after the time for planning.
 /// Robots without a plan are in the way of others, so a budget that is spent would cost plans that hold. A
 /// few robots are planned around hundreds of others in less than this.
@@ -126,7 +126,7 @@ inline constexpr std::chrono::milliseconds kLeastFirstPart{250};
 
 inline constexpr double kShareOfBriefSmoothing = 0.3;
 /// Without unavoidable collisions, no plan can be checked.
-inline constexpr std::chrono::milliseconds kMostForUnavoidable{150};
+inline constexpr std::chrono::milliseconds kMaxForUnavoidable{150};
 
 // 8. Bounds.
 

@@ -17,12 +17,12 @@ Work::Work(Bounds bounds)
       memory_(std::make_shared<MemoryAccount>(bounds_.memory)),
       is_bounded_(true),
       cpu_begin_(bounds_.cpu_clock()),
-      cpu_end_(cpu_begin_ + kMostCpu) {}
+      cpu_end_(cpu_begin_ + kMaxCpu) {}
 
 void Work::set_budget(std::chrono::nanoseconds budget) {
   if (!is_bounded_) return;
   budget_ = budget;
-  cpu_end_ = cpu_begin_ + kMostCpuOfReading;
+  cpu_end_ = cpu_begin_ + kMaxCpuOfReading;
   deadline_ = std::max(bounds_.received_at + budget, Clock::now()) + kGrace;
 }
 

@@ -161,16 +161,16 @@ class StopStride {
 /// which only a Work makes, or another StopCondition. So nothing that takes one as a parameter can be called
 /// without the bounds of a request.
 ///
-/// Reading ends when the client has left or the service drains; after kMostCpu until the budget is known, and
-/// after kMostCpuOfReading in all; and when the budget is spent.
+/// Reading ends when the client has left or the service drains; after kMaxCpu until the budget is known, and
+/// after kMaxCpuOfReading in all; and when the budget is spent.
 class Work {
  public:
   using Clock = StopCondition::Clock;
   using CpuClock = std::function<std::chrono::nanoseconds()>;
 
-  static constexpr std::chrono::seconds kMostCpu{1};
+  static constexpr std::chrono::seconds kMaxCpu{1};
   /// The most CPU time of reading, whatever the budget, as other requests wait to be read.
-  static constexpr std::chrono::seconds kMostCpuOfReading{3};
+  static constexpr std::chrono::seconds kMaxCpuOfReading{3};
   /// How much longer than its budget a request is read, counted from when the budget is known if that is
   /// later: so a request that waited too long still gets the answer of a valid one.
   static constexpr std::chrono::milliseconds kGrace{50};

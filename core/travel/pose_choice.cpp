@@ -18,9 +18,9 @@ namespace {
 /// out, but one not to return to the own pose of a goal with a tolerance.
 constexpr double kChangeOfMind = 1e6;
 /// How often two last goals that overlap are told apart by forbidding one of them.
-constexpr int kMostConflicts = 64;
+constexpr int kMaxConflicts = 64;
 /// How many positions are tried after that, one robot after the other.
-constexpr int kMostTries = 20'000;
+constexpr int kMaxTries = 20'000;
 
 /// The pose at which the previous plan of a robot ends, or its commitment, by its index; none if there are
 /// none, or if they end elsewhere.
@@ -121,7 +121,7 @@ class Chooser {
     const auto times = times_of_(last_);
     if (!times || !make_costs(*times)) return std::nullopt;
     bool overlaps = true;
-    for (int round = 0; round < kMostConflicts && overlaps; ++round) {
+    for (int round = 0; round < kMaxConflicts && overlaps; ++round) {
       auto columns = assign(costs_, std::vector<std::int64_t>(last_.size(), 1), stop_);
       if (!columns) return std::nullopt;
       columns_of_ = std::move(*columns);
@@ -253,7 +253,7 @@ class Chooser {
     std::vector<std::size_t> next(last_.size(), 0);  // option by rank in the order
     std::size_t rank = 0;
     for (int tries = 0; rank < order.size(); ++tries) {
-      if (tries == kMostTries || stop_.met()) return std::nullopt;
+      if (tries == kMaxTries || stop_.met()) return std::nullopt;
       const std::size_t row = order[rank];
       if (next[rank] == options[row].size()) {
         if (rank == 0) return std::nullopt;

@@ -38,16 +38,16 @@ std::vector<Tolerance> plan_tolerances(const OccupancyGrid& grid, const std::vec
                                        const std::vector<RobotPlan>& plans) {
   const double extent = std::max(grid.width(), grid.height());
   const double at_rest = kContactTolerance + kLeast + kRounding * extent;
-  std::vector<Tolerance> all(robots.size(), {std::min(kMostTolerance, at_rest), kLeast, kLeast});
+  std::vector<Tolerance> all(robots.size(), {std::min(kMaxTolerance, at_rest), kLeast, kLeast});
   for (const RobotPlan& plan : plans) {
     if (has_given_actions(robots[plan.robot])) continue;
     Tolerance& tolerance = all[plan.robot];
     const double travel = plan.cost * greatest_speed(robots[plan.robot]);
-    tolerance.metres = std::min(kMostTolerance, at_rest + kMotionRounding * travel);
+    tolerance.metres = std::min(kMaxTolerance, at_rest + kMotionRounding * travel);
     tolerance.seconds = kLeast + kRounding * plan.cost;
   }
   for (std::size_t i = 0; i < robots.size(); ++i) {
-    if (has_given_actions(robots[i])) all[i] = Tolerance::of_all(kMostTolerance);
+    if (has_given_actions(robots[i])) all[i] = Tolerance::of_all(kMaxTolerance);
   }
   return all;
 }
@@ -79,16 +79,16 @@ bool is_before(const Violation& a, const Violation& b) {
 
 void ViolationList::keep(Violation violation) {
   // Mostly they come by time, so that millions cost no more than these.
-  if (was_cut_ && !is_before(violation, kept_[kMostViolations - 1])) return;
+  if (was_cut_ && !is_before(violation, kept_[kMaxViolations - 1])) return;
   kept_.push_back(std::move(violation));
-  if (kept_.size() >= 2 * kMostViolations) sort_and_cut();
+  if (kept_.size() >= 2 * kMaxViolations) sort_and_cut();
 }
 
 void ViolationList::sort_and_cut() {
   std::stable_sort(kept_.begin(), kept_.end(), is_before);
-  if (kept_.size() > kMostViolations) {
+  if (kept_.size() > kMaxViolations) {
     was_cut_ = true;
-    kept_.erase(kept_.begin() + static_cast<std::ptrdiff_t>(kMostViolations), kept_.end());
+    kept_.erase(kept_.begin() + static_cast<std::ptrdiff_t>(kMaxViolations), kept_.end());
   }
 }
 

@@ -27,11 +27,11 @@ struct Tolerance {
 };
 
 /// No tolerance in metres exceeds this, whatever a request contains; also the default of POST /v1/validate.
-inline constexpr double kMostTolerance = 1e-6;
+inline constexpr double kMaxTolerance = 1e-6;
 
 /// Returns by robot the tolerances for a plan of the planner: contact, and what doubles lose in coordinates
 /// of the map's size and, at the robot's own speed, in times as long as its own plan's. For robots with
-/// actions of the request, kMostTolerance.
+/// actions of the request, kMaxTolerance.
 std::vector<Tolerance> plan_tolerances(const OccupancyGrid& grid, const std::vector<Robot>& robots,
                                        const std::vector<RobotPlan>& plans);
 
@@ -66,10 +66,10 @@ struct CheckRules {
 };
 
 /// The maximum number of overlaps of robots in a report. Many robots in one place have millions of them.
-inline constexpr std::size_t kMostCollisions = 10'000;
+inline constexpr std::size_t kMaxCollisions = 10'000;
 
 /// The maximum number of violations in a report. Every action may have several.
-inline constexpr std::size_t kMostViolations = 10'000;
+inline constexpr std::size_t kMaxViolations = 10'000;
 
 /// A violation of the rules by a plan. All numbers are finite.
 ///
@@ -131,7 +131,7 @@ struct Violation {
   std::optional<std::size_t> zone = {};      // zone: index of the zone
 };
 
-/// Violations, of which the first kMostViolations by time, then kind, then robots are kept, and all counted.
+/// Violations, of which the first kMaxViolations by time, then kind, then robots are kept, and all counted.
 class ViolationList {
  public:
   void add(Violation violation);
@@ -146,7 +146,7 @@ class ViolationList {
   void sort_and_cut();
 
   std::vector<Violation> kept_;  // at most twice as many as are kept in the end
-  bool was_cut_ = false;  // the first kMostViolations are in order, and later ones than these not wanted
+  bool was_cut_ = false;  // the first kMaxViolations are in order, and later ones than these not wanted
   std::size_t total_ = 0;
 };
 

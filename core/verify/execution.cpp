@@ -75,7 +75,7 @@ class ProfileLegs {
 }  // namespace
 
 std::vector<Leg> execute(const Robot& robot, const RobotPlan* plan) {
-  return execute(robot, plan, CarriedLoads(robot, plan, Tolerance::of_all(kMostTolerance)));
+  return execute(robot, plan, CarriedLoads(robot, plan, Tolerance::of_all(kMaxTolerance)));
 }
 
 std::vector<Leg> execute(const Robot& robot, const RobotPlan* plan, const CarriedLoads& loads) {

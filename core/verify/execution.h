@@ -72,7 +72,7 @@ class CarriedLoads {
 /// before 0), the overlapping part is omitted; an action that ends before it begins takes no time. Every
 /// number of the plan (and of the committed actions) is finite.
 std::vector<Leg> execute(const Robot& robot, const RobotPlan* plan, const CarriedLoads& loads);
-/// Executes with the loads of a robot whose times may be rounded by up to kMostTolerance.
+/// Executes with the loads of a robot whose times may be rounded by up to kMaxTolerance.
 std::vector<Leg> execute(const Robot& robot, const RobotPlan* plan);
 
 /// Returns the legs of an obstacle from when it appears until it vanishes, or to infinity. An obstacle that

@@ -150,7 +150,7 @@ class PairCheck {
         static_cast<std::size_t>(std::count(fleet_.invalid.begin(), fleet_.invalid.end(), true));
     const std::size_t more = (near_starts ? fleet_.size() : 0) + invalid + rules_.exempt.size();
     const auto clearance = fleet_clearance(fleet_.legs, {fleet_.radii, planned}, fleet_.tolerances,
-                                           kMostCollisions + kNearStartsPerRobot * more, stop_,
+                                           kMaxCollisions + kNearStartsPerRobot * more, stop_,
                                            [this](const Overlap& overlap) { return may_rest(overlap); });
     if (!clearance) return false;
     const bool is_pair = !fleet_.robots.empty() && fleet_.robots.front() != fleet_.robots.back();
@@ -158,7 +158,7 @@ class PairCheck {
     std::size_t listed = 0;
     for (const Overlap& overlap : clearance->overlaps) {
       if (stop_.met()) return false;
-      if (is_allowed(overlap) || ++listed > kMostCollisions) continue;
+      if (is_allowed(overlap) || ++listed > kMaxCollisions) continue;
       report(overlap);
     }
     return true;
@@ -203,7 +203,7 @@ class PairCheck {
       return times_left_out(first, second);
     };
     const auto overlaps = overlaps_within_margin(fleet_, rules_.interval_margin, rules_.inflation, left_out,
-                                                 kMostCollisions, stop_);
+                                                 kMaxCollisions, stop_);
     if (!overlaps) return false;
     for (const ShiftedOverlap& overlap : *overlaps) {
       if (collided_.contains({overlap.first, overlap.second})) continue;
@@ -235,12 +235,12 @@ class PairCheck {
 
   bool compare_obstacles() {
     const auto overlaps = overlaps_with_obstacles(fleet_, obstacles_, radii_, exemptions_,
-                                                  kMostCollisions + rules_.exempt.size(), stop_);
+                                                  kMaxCollisions + rules_.exempt.size(), stop_);
     if (!overlaps) return false;
     std::size_t listed = 0;
     for (const Overlap& overlap : *overlaps) {
       if (exemptions_.allow_obstacle(overlap.first, overlap.second, overlap.t_begin)) continue;
-      if (++listed > kMostCollisions) break;
+      if (++listed > kMaxCollisions) break;
       const double kept = fleet_.radii[overlap.first] + radii_[overlap.second];
       report_.violations.add({Violation::Kind::moving_obstacle,
                               {fleet_.robots[overlap.first]},

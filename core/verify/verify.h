@@ -20,8 +20,8 @@ namespace fleetplan::core {
 
 /// The outcome of a check.
 struct VerifyReport {
-  std::vector<Violation> violations;  // by time, then kind, then robots; the first kMostViolations
-  std::size_t violation_count = 0;    // listed or not, except overlaps beyond kMostCollisions
+  std::vector<Violation> violations;  // by time, then kind, then robots; the first kMaxViolations
+  std::size_t violation_count = 0;    // listed or not, except overlaps beyond kMaxCollisions
   // Metres: smallest gap between two disks without inflation over all time; none for fewer than two (usable)
   // robots.
   std::optional<double> min_clearance;

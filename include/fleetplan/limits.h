@@ -20,19 +20,19 @@ inline constexpr double kLongestTime = 1e8;
 /// The least and greatest linear speeds of robots and in zones, metres per second; moving obstacles are not
 /// faster.
 inline constexpr double kLeastLinearSpeed = 1e-3;
-inline constexpr double kMostLinearSpeed = 1e3;
+inline constexpr double kMaxLinearSpeed = 1e3;
 /// The least and greatest angular speeds, radians per second.
 inline constexpr double kLeastAngularSpeed = 1e-3;
-inline constexpr double kMostAngularSpeed = 1e6;
+inline constexpr double kMaxAngularSpeed = 1e6;
 /// The least and greatest accelerations and decelerations, metres (or radians) per second squared.
 inline constexpr double kLeastAcceleration = 1e-3;
-inline constexpr double kMostAcceleration = 1e6;
+inline constexpr double kMaxAcceleration = 1e6;
 /// The least and greatest weights of robots.
 inline constexpr double kLeastWeight = 1e-3;
-inline constexpr double kMostWeight = 1e3;
+inline constexpr double kMaxWeight = 1e3;
 /// The numbers of poses of a goal that may be served at several.
 inline constexpr std::size_t kFewestPoses = 2;
-inline constexpr std::size_t kMostPoses = 100;
+inline constexpr std::size_t kMaxPoses = 100;
 /// The shortest horizon, seconds.
 inline constexpr double kShortestHorizon = 1e-3;
 /// The least angle, radians, by which a one-way zone lets robots move off its heading.

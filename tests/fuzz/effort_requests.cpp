@@ -171,21 +171,21 @@ void add_tolerances(Json& robots, std::size_t first) {
 /// Goals that are served at one of the starts of robots, as many as there may be; those of all, or others
 /// each.
 void add_open_goals(Json& robots, Choices& choices) {
-  constexpr std::size_t kMostRobots = 190;  // with all poses within max_goals
+  constexpr std::size_t kMaxRobots = 190;  // with all poses within max_goals
   const std::size_t poses = std::min(robots.size(), 2 + static_cast<std::size_t>(choices.up_to(98)));
   if (poses < 2) return;
   const bool are_own = choices.yes();
-  for (std::size_t k = 0; k < robots.size() && k < kMostRobots; ++k) {
+  for (std::size_t k = 0; k < robots.size() && k < kMaxRobots; ++k) {
     if (!robots[k].contains("goal")) continue;
     Json any_of = Json::array();
-    for (std::size_t pose = 0; pose < std::min(poses, kMostPoses); ++pose) {
+    for (std::size_t pose = 0; pose < std::min(poses, kMaxPoses); ++pose) {
       any_of.push_back(robots[(7 * pose + (are_own ? k : 0)) % robots.size()]["start"]);
     }
     for (const char* member : {"x", "y", "theta"}) robots[k]["goal"].erase(member);
     robots[k]["goal"]["any_of"] = std::move(any_of);
     robots[k]["idle"] = k < poses / 2 ? "stay" : "yield";
   }
-  add_tolerances(robots, kMostRobots);
+  add_tolerances(robots, kMaxRobots);
 }
 
 /// Members that a request of POST /v1/plan may have besides.
@@ -261,8 +261,8 @@ std::pair<double, Json> timed(double length, const std::optional<double>& accele
 
 ToAndFro to_and_fro(const Extent& extent, double pitch, Choices& choices) {
   ToAndFro fleet;
-  const int most_robots = static_cast<int>(std::min(300.0, extent.height / pitch));
-  const int robots = 1 + choices.up_to(most_robots - 1);
+  const int max_robots = static_cast<int>(std::min(300.0, extent.height / pitch));
+  const int robots = 1 + choices.up_to(max_robots - 1);
   fleet.legs = 1 + choices.up_to(std::min(3000, 60'000 / robots));
   const double length = std::max(0.1, extent.width - pitch) * choices.one_of(std::array{1.0, 0.3, 0.001});
   const bool waits = choices.yes();
@@ -410,12 +410,12 @@ Json messages_of(const ToAndFro& fleet, Choices& choices) {
 
 /// The travel times from all starts to all goals of a request to plan, as far as they are not too many pairs.
 Json matrix_of(const Json& request) {
-  constexpr std::size_t kMost = 500;
+  constexpr std::size_t kMax = 500;
   Json from = Json::array();
   Json to = Json::array();
   for (const Json& robot : request["robots"]) {
-    if (from.size() < kMost) from.push_back(robot["start"]);
-    if (to.size() == kMost || !(robot.contains("goal") || robot.contains("goals"))) continue;
+    if (from.size() < kMax) from.push_back(robot["start"]);
+    if (to.size() == kMax || !(robot.contains("goal") || robot.contains("goals"))) continue;
     const Json& goal = robot.contains("goal") ? robot["goal"] : robot["goals"][0];
     const Json& pose = goal.contains("any_of") ? goal["any_of"][0] : goal;
     to.push_back({{"x", pose["x"]}, {"y", pose["y"]}});
@@ -433,7 +433,7 @@ Json tasks_of(Json request, Choices& choices) {
   const int goals = 1 + choices.up_to(20);
   const bool is_named = choices.yes();
   Json tasks = Json::array();
-  for (std::size_t k = 0; k < robots && k < api::kMostPairs / robots; ++k) {
+  for (std::size_t k = 0; k < robots && k < api::kMaxPairs / robots; ++k) {
     Json task{{"id", std::to_string(k)}, {"goals", Json::array()}};
     for (int goal = 0; goal < goals; ++goal) {
       const Json& start = request["robots"][(k + static_cast<std::size_t>(goal)) % robots]["start"];

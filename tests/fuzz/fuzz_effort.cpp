@@ -97,8 +97,8 @@ const Target target("effort", run);
 extern "C" __attribute__((no_sanitize_coverage)) void __sanitizer_cov_trace_pc() {  // NOLINT
   using fleetplan::fuzz::blocks;
   // A tenth of a second: the longest map is read, copied and indexed in a few linear passes.
-  constexpr std::int64_t kMostBlocks = 40'000'000;
-  if (!blocks.counting || ++blocks.count < kMostBlocks) return;
+  constexpr std::int64_t kMaxBlocks = 40'000'000;
+  if (!blocks.counting || ++blocks.count < kMaxBlocks) return;
   std::fputs("a loop asks no stop condition\n", stderr);
   std::abort();  // here, so that a debugger shows the loop
 }

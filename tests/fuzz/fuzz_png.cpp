@@ -46,8 +46,8 @@ using support::chunk;
 using support::deflated;
 using support::png_header;
 
-constexpr std::int64_t kMost = 4096;  // pixels
-constexpr int kMostChunks = 12;
+constexpr std::int64_t kMax = 4096;  // pixels
+constexpr int kMaxChunks = 12;
 
 struct Outcome {
   int columns = 0;
@@ -65,7 +65,7 @@ Outcome read(const std::string& file, int pattern) {
   fill = pattern;
   core::Work stop = core::Work::unbounded();
   const auto opened =
-      api::open_png({reinterpret_cast<const std::uint8_t*>(file.data()), file.size()}, kMost, stop);
+      api::open_png({reinterpret_cast<const std::uint8_t*>(file.data()), file.size()}, kMax, stop);
   if (!opened) return {0, 0, 0, {}, opened.failure().detail, opened.failure().too_large};
   const api::ImageHeader& header = (*opened)->header();
   Outcome outcome{header.columns, header.rows, header.channels, {}, {}, false};
@@ -177,7 +177,7 @@ std::string any_file(const MadeImage& image, Choices& choices) {
   if (!choices.one_in(4)) file += any_header(image, choices);
   if (!choices.one_in(4)) file += chunk("PLTE", image.palette);
   if (!choices.one_in(4)) file += chunk("tRNS", image.transparency);
-  for (int k = 0; k < kMostChunks && choices.any_left(); ++k) file += any_chunk(image, compressed, choices);
+  for (int k = 0; k < kMaxChunks && choices.any_left(); ++k) file += any_chunk(image, compressed, choices);
   const std::size_t at = choices.word() % file.size();
   if (choices.one_in(4)) file[at] = static_cast<char>(choices.byte());
   if (choices.one_in(8)) file.resize(at);

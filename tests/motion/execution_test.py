@@ -24,7 +24,7 @@ PROJECT = pathlib.Path(__file__).resolve().parent.parent.parent
 DOCUMENT = (PROJECT / "docs/execution.md").read_text()
 SERVICE = "http://localhost:8080"  # as the document writes it
 RUNS = int(os.environ.get("FLEETPLAN_RUNS", "30"))
-MOST_LINES = 60
+MAX_LINES = 60
 CONTACT = 1e-5  # metres: the tolerance of the check, and of the sums of a replay
 BINARY = None
 
@@ -82,7 +82,7 @@ class Client(unittest.TestCase):
         return answer
 
     def test_it_is_as_short_as_promised_and_runs_as_written(self):
-        self.assertLessEqual(len(client_source().splitlines()), MOST_LINES)
+        self.assertLessEqual(len(client_source().splitlines()), MAX_LINES)
         done = subprocess.run([sys.executable, "-c", client_source().replace(SERVICE, self.service.url)], cwd=PROJECT,
                               capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 0, done.stderr[-2000:])

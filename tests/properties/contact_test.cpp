@@ -37,10 +37,10 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kRounding = 4e-9;
 /// Questions to the stop condition: five times what any plan of these tests takes. Not seconds, because some
 /// take ten with sanitizers on a busy machine, and whether a way is found must not depend on the machine.
-constexpr std::int64_t kMostSteps = 40'000;
+constexpr std::int64_t kMaxSteps = 40'000;
 
 Plan planned(const Problem& problem, const PlanOptions& options) {
-  support::StepLimit limit(kMostSteps);
+  support::StepLimit limit(kMaxSteps);
   Plan plan = core::plan(problem, options, support::counted(limit));
   const auto tolerances = plan_tolerances(problem.grid(), problem.robots(), plan.plans);
   const auto report =
@@ -172,11 +172,11 @@ OccupancyGrid hall(double resolution) {
   return grid;
 }
 
-/// Places robots in contact with walls and with each other: gaps are from `least` to `most` metres.
+/// Places robots in contact with walls and with each other: gaps are from `least` to `max` metres.
 class ContactFleet {
  public:
-  ContactFleet(Dice& dice, const OccupancyGrid& grid, double least, double most)
-      : dice_(dice), grid_(grid), least_(least), most_(most) {}
+  ContactFleet(Dice& dice, const OccupancyGrid& grid, double least, double max)
+      : dice_(dice), grid_(grid), least_(least), max_(max) {}
 
   std::vector<Position> places(const std::vector<double>& radii) {
     std::vector<Position> all;
@@ -192,7 +192,7 @@ class ContactFleet {
   }
 
  private:
-  double gap() { return dice_.between(least_, most_); }
+  double gap() { return dice_.between(least_, max_); }
   Position at_wall(double radius) {
     const double along = dice_.between(1.5, 10.5);
     switch (dice_.below(3)) {
@@ -220,17 +220,17 @@ class ContactFleet {
   Dice& dice_;
   const OccupancyGrid& grid_;
   double least_;
-  double most_;
+  double max_;
   int attempts_ = 0;
 };
 
 /// Robots with starts at these gaps, and goals at others.
-Problem contact_problem(Dice& dice, double least_start, double most_start, double goal_margin) {
+Problem contact_problem(Dice& dice, double least_start, double max_start, double goal_margin) {
   const OccupancyGrid grid = hall(dice.chance(0.5) ? 0.5 : 0.125);
   std::vector<double> radii;
   for (int i = 2 + dice.below(3); i > 0; --i)
     radii.push_back(dice.chance(0.5) ? 0.25 : dice.between(0.1, 0.4));
-  const auto starts = ContactFleet(dice, grid, least_start, most_start).places(radii);
+  const auto starts = ContactFleet(dice, grid, least_start, max_start).places(radii);
   const auto goals = ContactFleet(dice, grid, goal_margin - 4.9e-7, goal_margin).places(radii);
   std::vector<Robot> robots;
   for (std::size_t i = 0; i < radii.size(); ++i) {
@@ -370,7 +370,7 @@ TEST_P(StartsInWalls, AreLeftForGood) {
     options.start_overlap = 0.05;
     options.mode = dice.chance(0.3) ? PlanOptions::Mode::anytime : PlanOptions::Mode::first;
     options.max_iterations = 5;
-    support::StepLimit limit(kMostSteps);
+    support::StepLimit limit(kMaxSteps);
     const Plan plan = core::plan(*problem, options, support::counted(limit));
     support::expect_safe(*problem, plan, options);
   }

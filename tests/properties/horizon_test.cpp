@@ -26,7 +26,7 @@ namespace TEST_FILE {
 using support::Dice;
 using support::FleetRequest;
 
-constexpr int kMostRounds = 120;
+constexpr int kMaxRounds = 120;
 
 /// Whether two plans are the same to the last digit.
 bool same_plans(const Plan& a, const Plan& b) {
@@ -180,7 +180,7 @@ TEST_P(HorizonOfRandomFleet, LetsEverybodyArriveInTheEndInAnOpenHall) {
   const double period = *request.options.horizon * dice.between(0.2, 0.6);
   const bool keeps_previous = dice.chance(0.5);
   bool all_arrived = false;
-  for (int round = 0; round < kMostRounds && !all_arrived; ++round) {
+  for (int round = 0; round < kMaxRounds && !all_arrived; ++round) {
     const auto problem = support::problem_of(request);
     ASSERT_TRUE(problem) << "round " << round;
     const Plan plan = core::plan(*problem, request.options, StopCondition::never());

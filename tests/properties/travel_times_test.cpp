@@ -18,7 +18,7 @@ namespace TEST_FILE {
 
 constexpr int kRuns = 400;
 /// Later improvement has up to 32 neighbours of a vertex, travel times those of the request.
-constexpr int kMostSlower = kRuns / 25;
+constexpr int kMaxSlower = kRuns / 25;
 constexpr double kRounding = 1e-6;  // seconds
 
 PlanOptions options_for(support::Dice& dice) {
@@ -83,7 +83,7 @@ TEST_P(RandomTravelTimes, AreThoseOfThePlan) {
     if (way->seconds > found.plans.front().cost + kRounding) ++slower;
   }
   EXPECT_GT(planned, kRuns / 2);
-  EXPECT_LE(slower, kMostSlower);
+  EXPECT_LE(slower, kMaxSlower);
 }
 
 INSTANTIATE_TEST_SUITE_P(Zones, RandomTravelTimes, testing::Bool());

@@ -51,7 +51,7 @@ ANSWERS_LOST = 0.002  # the share
 SPOILED = [None, "x", math.nan, 1e300, [], {}, True]
 PUSHED_M = 1.5
 TURN_MIN = 10.0  # with the same fleet
-MOST_FAILURES = 20
+MAX_FAILURES = 20
 MAKE = "acme"
 
 
@@ -351,7 +351,7 @@ class Soak:
     def run(self, is_over):
         """Disturbs the vehicles until it is over, and finishes."""
         try:
-            while not is_over(self.now) and len(self.failures) < MOST_FAILURES:
+            while not is_over(self.now) and len(self.failures) < MAX_FAILURES:
                 self.step(True)
             self.finish()
         except Exception:  # to tell when and how
@@ -434,7 +434,7 @@ def main():
         turn = f"VDA 5050 {version}, seed {arguments.seed + number}"
         print(f"{turn}, ", end="")
         soak.print_report()
-        failures += [f"{turn}, {failure}" for failure in soak.failures[:MOST_FAILURES]]
+        failures += [f"{turn}, {failure}" for failure in soak.failures[:MAX_FAILURES]]
         client.close()
     if not server.alive():
         failures.append("the server ended")

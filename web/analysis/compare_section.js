@@ -16,7 +16,7 @@ const VIEWS = [
   { value: "beside", label: "side by side" },
   { value: "over", label: "as dashed rings over this plan" },
 ];
-const MOST = 200; // rows
+const MAX = 200; // rows
 const CHANGES = {
   same: "same",
   times: "different times",
@@ -153,7 +153,7 @@ export class CompareSection {
     const head = ["Robot", "Cost, s", "Other, s", "Difference", "Change"].map((textContent) =>
       element("th", { scope: "col", textContent }),
     );
-    const body = rows.slice(0, MOST).map(({ id, cost, other, difference, change }) => {
+    const body = rows.slice(0, MAX).map(({ id, cost, other, difference, change }) => {
       const cells = [
         fixed(cost),
         fixed(other),

@@ -10,7 +10,7 @@ import { count, seconds } from "../ui/format.js";
 import { percent } from "../model/simulation.js";
 import { button } from "./fields.js";
 
-const MOST_TIGHT = 6;
+const MAX_TIGHT = 6;
 
 export class DependenciesSection {
   #page;
@@ -121,7 +121,7 @@ export class DependenciesSection {
 
   #tight(tight) {
     if (tight.length === 0) return "";
-    const items = tight.slice(0, MOST_TIGHT).map(({ robots, t, slack }) => {
+    const items = tight.slice(0, MAX_TIGHT).map(({ robots, t, slack }) => {
       const show = button(`${seconds(t)}, slack ${seconds(slack)}`, () => this.#session.seek(t), {
         class: "quiet",
       });

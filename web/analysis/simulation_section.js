@@ -15,8 +15,8 @@ import { count, seconds } from "../ui/format.js";
 import { quantileRows, shareBar } from "./charts.js";
 import { button, choicePart, numberPart } from "./fields.js";
 
-const MOST_ROBOTS = 12; // in the chart of delays
-const MOST_LISTED = 8;
+const MAX_ROBOTS = 12; // in the chart of delays
+const MAX_LISTED = 8;
 const BEFORE = 2; // seconds before a collision at which its run is played
 const NUMBERS = {
   slowest: ["Minimum speed", "%", { min: 0.1, max: 100 }],
@@ -130,7 +130,7 @@ export class SimulationSection {
 
   #show(plan, form, simulated) {
     const { runs, collision_share, deadlock_share, robots, pairs, warnings } = simulated;
-    const delays = mostDelayed(robots, MOST_ROBOTS).map(({ robot, delay }) => ({ name: robot, ...delay }));
+    const delays = mostDelayed(robots, MAX_ROBOTS).map(({ robot, delay }) => ({ name: robot, ...delay }));
     const whole = ["makespan", "flowtime"].filter((name) => simulated[name] !== null);
     const rows = whole.map((name) => ({
       name,
@@ -151,7 +151,7 @@ export class SimulationSection {
   #pairs(pairs) {
     if (pairs.length === 0) return "";
     const items = pairs
-      .slice(0, MOST_LISTED)
+      .slice(0, MAX_LISTED)
       .map(({ robots, share }) =>
         element(
           "li",
@@ -165,7 +165,7 @@ export class SimulationSection {
 
   #collisions(plan, form, collisions) {
     if (collisions.length === 0) return "";
-    const items = collisions.slice(0, MOST_LISTED).map(({ run, robots, with: other, t }) => {
+    const items = collisions.slice(0, MAX_LISTED).map(({ run, robots, with: other, t }) => {
       const words = `Execution ${run}: ${robots.join(" and ")}${other === "wall" ? " and a wall" : ""} at ${seconds(t)}`;
       return element(
         "li",

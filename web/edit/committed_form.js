@@ -8,7 +8,7 @@ import { byId, element, setText } from "../ui/dom.js";
 import { count } from "../ui/format.js";
 import { NumberField } from "../ui/number_field.js";
 
-const MOST = 100; // actions in the list
+const MAX = 100; // actions in the list
 
 export class CommittedForm {
   #session;
@@ -94,9 +94,9 @@ export class CommittedForm {
   }
 
   #list(committed) {
-    const items = committed.slice(0, MOST).map((action) => element("li", { textContent: inWords(action) }));
-    if (committed.length > MOST)
-      items.push(element("li", { textContent: `and ${count(committed.length - MOST, "other")}` }));
+    const items = committed.slice(0, MAX).map((action) => element("li", { textContent: inWords(action) }));
+    if (committed.length > MAX)
+      items.push(element("li", { textContent: `and ${count(committed.length - MAX, "other")}` }));
     byId("committed-list").replaceChildren(...items);
   }
 }

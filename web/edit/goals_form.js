@@ -34,7 +34,7 @@ const FIELDS = {
   linear_deceleration_after: { label: "Deceleration after", unit: "m/s²" },
 };
 const ASIDE = 3; // radii between the last pose and a new one
-const MOST_POSES = 100; // of a goal
+const MAX_POSES = 100; // of a goal
 
 export class GoalsForm {
   #session;
@@ -106,7 +106,7 @@ export class GoalsForm {
         showMember(field, name, pose?.[name]);
       }
     });
-    more.disabled = alternatives.length >= MOST_POSES;
+    more.disabled = alternatives.length >= MAX_POSES;
   }
 
   #row(number) {

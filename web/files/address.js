@@ -6,7 +6,7 @@ import { FileError } from "../model/problem.js";
 import { freshId } from "./kept.js";
 
 const REST_MS = 400; // without a further edit
-const MOST_TO_COMPRESS = 2 ** 20; // characters: longer requests are not compressed after each edit
+const MAX_TO_COMPRESS = 2 ** 20; // characters: longer requests are not compressed after each edit
 const PREFIX = "#r=";
 const KEPT = "#kept=";
 const LONGEST_TEXT = 8 * 2 ** 20; // bytes when inflated
@@ -86,7 +86,7 @@ export class Address {
     const { example } = this.#session;
     this.#isKept = example !== null;
     if (opened) {
-      const mayBeLarge = this.#session.text.length > MOST_TO_COMPRESS || location.hash.startsWith(KEPT);
+      const mayBeLarge = this.#session.text.length > MAX_TO_COMPRESS || location.hash.startsWith(KEPT);
       this.#isLarge = example === null && mayBeLarge; // until it is known
     }
     if (example !== null) {
@@ -99,7 +99,7 @@ export class Address {
 
   async #showRequest() {
     const { name, request, text, turn } = this.#session;
-    const fragment = text.length <= MOST_TO_COMPRESS ? await writeLinkState(request) : "";
+    const fragment = text.length <= MAX_TO_COMPRESS ? await writeLinkState(request) : "";
     if (turn !== this.#session.turn) return;
     this.#isLarge = fragment === "" || fragment.length > LONGEST_LINK;
     const address = this.#isLarge ? await this.#keep({ name, text }) : fragment;

@@ -2,7 +2,7 @@
 // another for plans {request, answer}, the texts of both.
 
 const BY_TIME = "at";
-const MOST = 10; // of each; the oldest ones are dropped
+const MAX = 10; // of each; the oldest ones are dropped
 
 export const keptRequests = () => new Kept("fleetplan", "requests");
 export const keptPlans = () => new Kept("fleetplan-plans", "plans");
@@ -26,7 +26,7 @@ class Kept {
     const store = await this.#store("readwrite");
     await done(store.put({ ...value, id, at: Date.now() }));
     const ids = await done(store.index(BY_TIME).getAllKeys());
-    await Promise.all(ids.slice(0, -MOST).map((old) => done(store.delete(old))));
+    await Promise.all(ids.slice(0, -MAX).map((old) => done(store.delete(old))));
     await completed(store.transaction); // the browser drops all of it if the page ends before
   }
 

@@ -5,7 +5,7 @@ import { isPng, readPng } from "./png.js";
 
 const SPACE = new Set([9, 10, 11, 12, 13, 32]);
 const HASH = 35;
-const MOST_PIXELS = 2 ** 28; // more is a mistake
+const MAX_PIXELS = 2 ** 28; // more is a mistake
 
 /** The pixels for classifyPixels. Rejects with FileError. */
 export async function readImage(bytes) {
@@ -23,11 +23,11 @@ export function readPgm(bytes) {
     );
   }
   const reader = new HeaderReader(bytes);
-  const width = reader.number("width", MOST_PIXELS);
-  const height = reader.number("height", MOST_PIXELS);
+  const width = reader.number("width", MAX_PIXELS);
+  const height = reader.number("height", MAX_PIXELS);
   const largest = reader.number("largest gray", 65535);
   const pixels = width * height;
-  if (pixels > MOST_PIXELS) throw new FileError(`Its ${width} x ${height} pixels are too many for a map.`);
+  if (pixels > MAX_PIXELS) throw new FileError(`Its ${width} x ${height} pixels are too many for a map.`);
   const values = magic === "P5" ? rawValues(bytes, reader.at, pixels, largest) : plainValues(reader, pixels);
   const bright = values.findIndex((value) => value > largest);
   if (bright !== -1) {

@@ -4,7 +4,7 @@
 import { FileError } from "../model/problem.js";
 
 const SIGNATURE = [137, 80, 78, 71, 13, 10, 26, 10];
-const MOST_PIXELS = 2 ** 26; // more would not fit in memory
+const MAX_PIXELS = 2 ** 26; // more would not fit in memory
 const CHANNELS = { 0: 1, 2: 3, 3: 1, 4: 2, 6: 4 }; // as stored, by colour type
 const DEPTHS = { 0: [1, 2, 4, 8, 16], 2: [8, 16], 3: [1, 2, 4, 8], 4: [8, 16], 6: [8, 16] }; // bits of a channel
 const PALETTE = 3;
@@ -73,7 +73,7 @@ function readHeader(header) {
   const [depth, type, compression, filter, interlaced] = header.subarray(8);
   const known = DEPTHS[type]?.includes(depth) && compression === 0 && filter === 0 && interlaced <= 1;
   if (width === 0 || height === 0 || !known) throw damaged("its header is invalid");
-  if (width * height > MOST_PIXELS)
+  if (width * height > MAX_PIXELS)
     throw new FileError(`Its ${width} x ${height} pixels are too many for a map.`);
   return { width, height, depth, type, interlaced: interlaced === 1 };
 }

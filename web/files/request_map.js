@@ -17,7 +17,7 @@ import {
 import { quarterTurnsOf, turned } from "./turns.js";
 import { writePng } from "./write_png.js";
 
-const MOST_AS_ROWS = 250_000; // cells: the image of a larger map is a hundredth of its rows
+const MAX_AS_ROWS = 250_000; // cells: the image of a larger map is a hundredth of its rows
 const GRAYS = []; // of cells, as map_server writes them
 GRAYS[FREE] = 254;
 GRAYS[OCCUPIED] = 0;
@@ -29,7 +29,7 @@ GRAYS[UNKNOWN] = 205;
  */
 export async function requestMapOf(grid, unknownFree) {
   const rows = mapOfGrid(grid, unknownFree);
-  if (grid.cells.length <= MOST_AS_ROWS) return { map: rows, rows };
+  if (grid.cells.length <= MAX_AS_ROWS) return { map: rows, rows };
   const { columns, resolution, origin } = grid;
   const png = await writePng(
     columns,

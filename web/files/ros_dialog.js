@@ -7,7 +7,7 @@ import { FormDialog, numberField } from "../ui/form_dialog.js";
 import { grouped, metres } from "../ui/format.js";
 import { FREE, OCCUPIED, smallestFactor, UNKNOWN } from "./ros_map.js";
 
-const MOST_MERGED = 100; // cells per side that are merged into one
+const MAX_MERGED = 100; // cells per side that are merged into one
 
 export class RosMapDialog {
   #whole;
@@ -38,7 +38,7 @@ export class RosMapDialog {
       "Cells merged into one",
       "per side",
       smallestFactor(this.#trimmed, most),
-      { min: "1", max: String(MOST_MERGED), step: "1" },
+      { min: "1", max: String(MAX_MERGED), step: "1" },
       "A merged cell is blocked if any of its cells is.",
     );
     const notes = warnings.map((textContent) => element("li", { textContent }));
@@ -85,7 +85,7 @@ export class RosMapDialog {
     this.#made = made;
     this.#dialog.ready = fits;
     this.#status.classList.toggle("wrong", !fits);
-    setText(this.#status, made ? this.#outcome(source, made) : `Merge 1 to ${MOST_MERGED} cells per side.`);
+    setText(this.#status, made ? this.#outcome(source, made) : `Merge 1 to ${MAX_MERGED} cells per side.`);
     if (made) this.#paint(made.grid);
   }
 

@@ -16,7 +16,7 @@ export const UNKNOWN = 2;
 export const OCCUPIED_THRESH = 0.65; // as in the files that map_server writes
 export const FREE_THRESH = 0.196;
 const LEAST_OCCUPIED = 65; // percent, as in the service
-const MOST_FREE = 25;
+const MAX_FREE = 25;
 const NOT_KNOWN = 255; // no cell
 const MODES = ["trinary", "scale", "raw"];
 
@@ -152,7 +152,7 @@ function occupancyOfHumble(described, pixel, largest) {
 export function cellOf(percent) {
   if (percent === null) return UNKNOWN;
   if (percent > LEAST_OCCUPIED - 0.5) return OCCUPIED;
-  return percent < MOST_FREE + 0.5 ? FREE : UNKNOWN;
+  return percent < MAX_FREE + 0.5 ? FREE : UNKNOWN;
 }
 
 /** How many cells are free, occupied and unknown, in that order. */

@@ -3,7 +3,7 @@
 import { robotsOf } from "./listed.js";
 import { Signals } from "./signals.js";
 
-const MOST = 5;
+const MAX = 5;
 
 export class EarlierPlans {
   #session;
@@ -42,7 +42,7 @@ export class EarlierPlans {
   #note(answer) {
     const isFinal = this.#session.planning === null;
     if (!isFinal || answer === null || answer.plans.length === 0) return;
-    this.#shown = [...this.#shown.filter((each) => each !== answer), answer].slice(-MOST - 1);
+    this.#shown = [...this.#shown.filter((each) => each !== answer), answer].slice(-MAX - 1);
   }
 }
 

@@ -10,7 +10,7 @@ import { readGrid } from "./scene.js";
 
 const FREE = ".";
 const BLOCKED = "#";
-const MOST_CELLS = 16_000_000; // until the limits are known
+const MAX_CELLS = 16_000_000; // until the limits are known
 const SPEEDS = { linear_speed: 1, angular_speed: 3.1416 }; // m/s, rad/s: defaults
 const RADIUS_SHARE = 0.4; // of a cell
 
@@ -117,7 +117,7 @@ export function newMap({ columns, rows, resolution, walled }) {
 export function faultOfSize(columns, rows, limits) {
   if (!Number.isInteger(columns) || !Number.isInteger(rows)) return "Enter whole numbers.";
   if (columns < 1 || rows < 1) return "A map has at least one cell.";
-  const most = limits.max_cells ?? MOST_CELLS;
+  const most = limits.max_cells ?? MAX_CELLS;
   if (columns * rows > most) return `The service accepts at most ${most.toLocaleString("en")} cells.`;
   return null;
 }

@@ -1,6 +1,6 @@
 // Where robots wait, and where they pass: figures by squares of the map. Pure. Metres and seconds.
 
-const MOST_SQUARES = 180; // along the longer side of the map
+const MAX_SQUARES = 180; // along the longer side of the map
 
 /**
  * The heat of a plan on a map: {columns, rows, size, values, most}, the top row first; `values` are the seconds that
@@ -12,7 +12,7 @@ const MOST_SQUARES = 180; // along the longer side of the map
 export function heatOf(grid, tracks, kind) {
   const { bounds, resolution } = grid;
   const longest = Math.max(bounds.right - bounds.left, bounds.top - bounds.bottom);
-  const size = Math.max(resolution, longest / MOST_SQUARES);
+  const size = Math.max(resolution, longest / MAX_SQUARES);
   const columns = Math.ceil((bounds.right - bounds.left) / size - 1e-9);
   const rows = Math.ceil((bounds.top - bounds.bottom) / size - 1e-9);
   const values = new Float64Array(columns * rows);

@@ -1,6 +1,6 @@
 // Undo and redo of immutable values. Pure.
 
-const MOST = 500; // steps back
+const MAX = 500; // steps back
 
 export class History {
   #past = [];
@@ -28,7 +28,7 @@ export class History {
   push(value, gesture = null) {
     if (gesture === null || gesture !== this.#gesture) {
       this.#past.push(this.#present);
-      if (this.#past.length > MOST) this.#past.shift();
+      if (this.#past.length > MAX) this.#past.shift();
     }
     this.replace(value);
     this.#gesture = gesture;

@@ -8,7 +8,7 @@ import { robotsOf } from "./listed.js";
 import { ProblemError } from "./problem.js";
 
 const REST_MS = 350; // without a further edit
-const MOST_ROUNDS = 20; // of checks: each lists only the first violations
+const MAX_ROUNDS = 20; // of checks: each lists only the first violations
 
 const byId = (request) => new Map(robotsOf(request).map((robot) => [robot?.id, robot]));
 
@@ -56,7 +56,7 @@ export function watchKeptPlan(session, validate, rest = REST_MS) {
 
 async function judge(session, validate) {
   const { turn, answer, request } = session;
-  for (let round = 0; round < MOST_ROUNDS; round += 1) {
+  for (let round = 0; round < MAX_ROUNDS; round += 1) {
     const file = fileToCheck(request, answer, session.outdated);
     const check = file.plans.length === 0 ? null : await checked(file, validate);
     if (check === null || turn !== session.turn || answer !== session.answer) return;

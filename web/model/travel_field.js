@@ -4,20 +4,20 @@ import { ticks } from "./gantt.js";
 
 /** @import {Grid, Position} from "./types.js" */
 
-const MOST_SQUARES = 10_000;
+const MAX_SQUARES = 10_000;
 const STRIDES = [8, 4, 2, 1]; // squares from one to the next that is asked for, from coarse to fine
 const NO_ROOM = -1;
-const MOST_BANDS = 7;
+const MAX_BANDS = 7;
 
 /** The bands of times up to `most`: {step, count}, each `step` long, from 0. */
 export function bandsUpTo(most) {
-  const { step } = ticks({ from: 0, to: most }, MOST_BANDS);
+  const { step } = ticks({ from: 0, to: most }, MAX_BANDS);
   return { step, count: Math.max(1, Math.ceil(most / step - 1e-9)) };
 }
 
-/** The number of a band among so many, from 0 to MOST_BANDS - 1: the first and the last colour always occur. */
+/** The number of a band among so many, from 0 to MAX_BANDS - 1: the first and the last colour always occur. */
 export function shadeOf(band, count) {
-  return count === 1 ? 0 : Math.round((band * (MOST_BANDS - 1)) / (count - 1));
+  return count === 1 ? 0 : Math.round((band * (MAX_BANDS - 1)) / (count - 1));
 }
 
 /** The band of a time, from 0. */
@@ -26,7 +26,7 @@ export const bandOf = (seconds, { step, count }) => Math.min(count - 1, Math.flo
 /** How many cells are along a side of a square, so that there are not too many squares. */
 function cellsOfSquares({ columns, rows }) {
   let cells = 1;
-  while (Math.ceil(columns / cells) * Math.ceil(rows / cells) > MOST_SQUARES) cells += 1;
+  while (Math.ceil(columns / cells) * Math.ceil(rows / cells) > MAX_SQUARES) cells += 1;
   return cells;
 }
 

@@ -10,7 +10,7 @@ import { roomOf } from "./travel_room.js";
 
 const REST_MS = 200; // without a change
 const FIRST = 16; // places that are asked for at first: about as many as the service does at a time
-const MOST = 4000; // places that are asked for at a time; the service accepts 250,000
+const MAX = 4000; // places that are asked for at a time; the service accepts 250,000
 const QUICK_MS = 700; // of a part that is followed by a much larger one
 const BUDGET_MS = 20_000; // of a part
 const PATIENCE_MS = 20_000; // after which no further part is asked for: the finest ones are left out
@@ -97,7 +97,7 @@ export class TravelTimes {
     const field = new TravelField(scene.grid);
     const room = await roomOf(request, scene.grid, question.robot);
     const places = room.placesIn(field);
-    let [part, most, spent] = [FIRST, MOST, 0];
+    let [part, most, spent] = [FIRST, MAX, 0];
     let waiting = [];
     while (spent < PATIENCE_MS || !field.hasTimes) {
       waiting.push(...(await taken(places, part - waiting.length, signal)));

@@ -8,7 +8,7 @@ import { count, metres, seconds } from "../ui/format.js";
 
 const TICK = "M4.5 10.5 8.5 14.5 15.5 6";
 const CROSS = "M5 5 15 15M15 5 5 15";
-const MOST = 100; // violations to list
+const MAX = 100; // violations to list
 const DISTANCES = {
   robot_collision: "between their centres",
   obstacle_collision: "from its centre to the wall",
@@ -53,10 +53,10 @@ function showCheck(session, stage) {
 
 function violationList(violations, total, session, stage) {
   const list = element("ol", { class: "violations" });
-  for (const violation of violations.slice(0, MOST)) {
+  for (const violation of violations.slice(0, MAX)) {
     list.append(element("li", {}, violationButton(violation, session, stage)));
   }
-  const more = total - Math.min(violations.length, MOST);
+  const more = total - Math.min(violations.length, MAX);
   if (more > 0) list.append(element("li", { textContent: `and ${count(more, "more", "more")}` }));
   return list;
 }

@@ -5,7 +5,7 @@ import { byId, element } from "../ui/dom.js";
 import { count, metres, seconds } from "../ui/format.js";
 import { robotChip } from "./robot_list.js";
 
-const MOST = 50; // robots whose nearest approach is computed at once
+const MAX = 50; // robots whose nearest approach is computed at once
 const COLUMNS = ["Robot", "Cost, s", "Delay", "Drives", "Turns", "Waits", "Distance, m"];
 
 /** `fleet`: see FleetMotion. */
@@ -30,7 +30,7 @@ function contentOf(session, fleet, chosen) {
   });
   if (session.answer === null) return [heading, element("p", { class: "facts" }, "Plan to compare them.")];
   const table = tableOf(session, compareRobots(chosen, session.tracks));
-  const nearest = chosen.length <= MOST ? nearestAmong(chosen, fleet.byId) : null;
+  const nearest = chosen.length <= MAX ? nearestAmong(chosen, fleet.byId) : null;
   return [heading, table, nearest === null ? "" : nearestButton(session, nearest)];
 }
 

@@ -11,7 +11,7 @@ import { count } from "../ui/format.js";
 
 const FORMS = ["panel-edit", "panel-options"];
 const LEADING = /^\/(robots\/\d|robot_defaults|map|options)/; // what has fields in the forms
-const MOST_ERRORS = 100; // to list
+const MAX_ERRORS = 100; // to list
 
 /**
  * Shows the session's problem and marks its errors at their places. `choice`: see RobotChoice.
@@ -98,13 +98,13 @@ function againButton(again) {
 /** The errors, each detail once; places lead to where they are: `lead(pointer)`, if there is such, `leads(pointer)`. */
 function errorList({ errors, errors_total = errors.length }, request, { lead, leads }) {
   const list = element("ul", { class: "errors" });
-  for (const { detail, pointers } of groupFaults(errors.slice(0, MOST_ERRORS))) {
+  for (const { detail, pointers } of groupFaults(errors.slice(0, MAX_ERRORS))) {
     const places = pointers.map((pointer) => placeButton(pointer, request, leads(pointer) ? lead : null));
     const text = element("span", { textContent: detail });
     if (places.length === 1) places[0].append(text);
     list.append(element("li", {}, ...places, places.length === 1 ? null : text));
   }
-  const more = errors_total - Math.min(errors.length, MOST_ERRORS);
+  const more = errors_total - Math.min(errors.length, MAX_ERRORS);
   if (more > 0) list.append(element("li", { textContent: `and ${count(more, "more", "more")}` }));
   return list;
 }

@@ -10,7 +10,7 @@ import { TimelineOverview } from "./timeline_overview.js";
 
 const EVERY_MS = 100; // between updates of the text while playing
 const HEIGHT = { least: 110, first: 242, step: 24 }; // pixels of the chart
-const MOST_OF_WINDOW = 0.6;
+const MAX_OF_WINDOW = 0.6;
 
 export class TimelineDock {
   #session;
@@ -111,7 +111,7 @@ export class TimelineDock {
   }
 
   #setHeight(height) {
-    const most = Math.max(HEIGHT.least, Math.round(innerHeight * MOST_OF_WINDOW));
+    const most = Math.max(HEIGHT.least, Math.round(innerHeight * MAX_OF_WINDOW));
     this.#height = Math.max(HEIGHT.least, Math.min(most, height));
     this.#body.style.height = `${this.#height}px`;
     for (const [name, value] of Object.entries({ now: this.#height, min: HEIGHT.least, max: most })) {

@@ -5,7 +5,7 @@ import { byId, element } from "../ui/dom.js";
 import { grouped, seconds } from "../ui/format.js";
 import { blockedBy, robotChip } from "./robot_list.js";
 
-const MOST_UNFOLDED = 12; // robots of a reason
+const MAX_UNFOLDED = 12; // robots of a reason
 const WITH_MORE_TIME = ["budget_exhausted", "blocked_by_robots"]; // reasons that may change
 const LONGER = 4; // times the budget, to offer
 
@@ -80,7 +80,7 @@ function groupOf(session, reason, entries) {
     element("span", { class: "count", textContent: grouped(entries.length) }),
   );
   const list = element("ul", { class: "stuck" }, ...entries.map((entry) => robotCard(session, entry)));
-  const open = entries.length <= MOST_UNFOLDED;
+  const open = entries.length <= MAX_UNFOLDED;
   return element("details", { class: "reason-group", "data-reason": reason, open }, title, list);
 }
 

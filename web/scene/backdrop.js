@@ -4,7 +4,7 @@
 
 import { contextOf } from "../ui/dom.js";
 
-const MOST_STALE_MS = 400;
+const MAX_STALE_MS = 400;
 const PART_MS = 2; // of a frame
 
 export class Backdrop {
@@ -48,7 +48,7 @@ export class Backdrop {
   #refreshed(view, paint) {
     const shown = /** @type {Picture} */ (this.#shown);
     if (shown.isOf(view)) return shown;
-    const isStale = performance.now() - shown.begun >= MOST_STALE_MS;
+    const isStale = performance.now() - shown.begun >= MAX_STALE_MS;
     if (this.#next === null && isStale) this.#next = this.#begin(view, paint);
     if (!this.#next?.paint(PART_MS)) return shown;
     this.#shown = this.#next;

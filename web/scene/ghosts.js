@@ -8,7 +8,7 @@ import { drawPath, ring } from "./marks.js";
 const RING = { width: 2, alpha: 1, dashes: [4, 3] };
 const PATH = { width: 1.5, alpha: 0.6, dashes: [2, 4] };
 const LINK = { width: 1, alpha: 0.8, dashes: [] };
-const MOST_PATHS = 60; // more would cover the map
+const MAX_PATHS = 60; // more would cover the map
 
 export class Ghosts {
   #session;
@@ -31,7 +31,7 @@ export class Ghosts {
   #paint(context, view) {
     if (this.#tracks === null) return;
     const { marked } = view;
-    const all = this.#session.scene.robots.length <= MOST_PATHS;
+    const all = this.#session.scene.robots.length <= MAX_PATHS;
     for (const robot of this.#session.scene.robots) {
       const track = this.#tracks.get(robot.id);
       if (track === undefined || track.cost === null) continue; // it has no plan there

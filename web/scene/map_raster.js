@@ -4,7 +4,7 @@ import { contextOf, element } from "../ui/dom.js";
 import { readTheme } from "./palette.js";
 
 const TILE = 2048; // cells per side: supported by the canvases of all browsers
-const MOST_CELLS = 2 ** 24; // larger previews would be slower than typing
+const MAX_CELLS = 2 ** 24; // larger previews would be slower than typing
 
 /** A map as tiles: each cell in the colour of its value. */
 export class MapRaster {
@@ -129,7 +129,7 @@ export class MapPreview {
     const top = (canvas.height - rows * cell) / 2;
     context.fillStyle = theme.floor;
     context.fillRect(left, top, columns * cell, rows * cell);
-    if (columns * rows <= MOST_CELLS) {
+    if (columns * rows <= MAX_CELLS) {
       const raster = new MapRaster();
       raster.show(
         { columns, rows, blocked: cells },

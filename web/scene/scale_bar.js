@@ -2,7 +2,7 @@
 
 import { lengthInWords, scaleBar } from "../model/scale.js";
 
-const MOST = 110; // pixels
+const MAX = 110; // pixels
 const MARGIN = 14;
 const TICK = 6;
 const NARROW = 560; // pixels: the lower edge of such a scene has the line about the robot
@@ -11,7 +11,7 @@ const BELOW_BUTTONS = 70;
 /** Shows the scale in the lower left corner of the scene, or the upper one if it is narrow. */
 export function showScale(stage) {
   stage.addOverlay((context, { scale, viewport, theme }) => {
-    const { length, pixels } = scaleBar(scale, MOST);
+    const { length, pixels } = scaleBar(scale, MAX);
     const base = viewport.width < NARROW ? BELOW_BUTTONS : viewport.height - MARGIN;
     context.save();
     context.strokeStyle = theme.ink;

@@ -5,7 +5,7 @@ import { ConnectionLost, ProblemError } from "../model/problem.js";
 
 const PAUSES_MS = [200, 800]; // before the second and the third attempt
 const BUSY = 503;
-const MOST_ATTEMPTS = 6; // at a service that is busy
+const MAX_ATTEMPTS = 6; // at a service that is busy
 const LONGEST_WAIT = 60; // seconds for which a busy service is waited for
 const LARGE = 500_000; // characters
 const END_OF_EVENT = /\r?\n\r?\n/;
@@ -138,7 +138,7 @@ async function send(address, init = {}, /** @type {(seconds: number) => void} */
     if (response.ok) return response;
     const problem = readProblem(response, await unlessCut(response.text()));
     const isBusy = response.status === BUSY && problem.retry_after <= LONGEST_WAIT;
-    if (!isBusy || attempt === MOST_ATTEMPTS) throw new ProblemError(problem);
+    if (!isBusy || attempt === MAX_ATTEMPTS) throw new ProblemError(problem);
     onWait(problem.retry_after);
     await pause(problem.retry_after * 1000, init.signal);
   }

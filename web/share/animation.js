@@ -10,7 +10,7 @@ const BITS = 6_000_000; // a second
 const KINDS = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm"];
 const CODEC = { name: "vp8", inWebm: "V_VP8" };
 const KEY_EVERY = 5 * FRAMES; // pictures: players seek to these
-const MOST_QUEUED = 8; // pictures that wait for the encoder
+const MAX_QUEUED = 8; // pictures that wait for the encoder
 const TURN_MS = 30; // of work until the browser may answer people
 
 /** How fast a plan of this duration is recorded, plan seconds a second, if it is played at `speed`. */
@@ -97,7 +97,7 @@ function encoderOf(settings, pictures) {
       const frame = new VideoFrame(canvas, { timestamp: (at * 1e6) / FRAMES });
       encoder.encode(frame, { keyFrame: at % KEY_EVERY === 0 });
       frame.close();
-      while (encoder.encodeQueueSize > MOST_QUEUED) {
+      while (encoder.encodeQueueSize > MAX_QUEUED) {
         await Promise.race([
           failure,
           new Promise((done) => encoder.addEventListener("dequeue", done, { once: true })),

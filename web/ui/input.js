@@ -1,7 +1,7 @@
 // Keyboard shortcuts for the whole page, and the wheel.
 
 const LINE = 16; // pixels
-const MOST = 240; // pixels per wheel event that count for zooming
+const MAX = 240; // pixels per wheel event that count for zooming
 
 /**
  * `actions` maps KeyboardEvent.key, with "Control+" (which ⌘ also is) and "Shift+" where held, to a function.
@@ -39,5 +39,5 @@ export function wheelTravel({ deltaX, deltaY, deltaMode }) {
 /** The factor that an event of the wheel zooms by, above 1 to show less. `gain`: its logarithm per pixel. */
 export function wheelFactor(event, gain) {
   const { down } = wheelTravel(event);
-  return Math.exp(-Math.max(-MOST, Math.min(MOST, down)) * gain);
+  return Math.exp(-Math.max(-MAX, Math.min(MAX, down)) * gain);
 }

@@ -63,9 +63,9 @@ std::vector<core::Alternative> parse_any_of(const JsonReader& goal, const JsonRe
   }
   const JsonReader list = any_of.array();
   if (!list) return poses;
-  if (list.size() < kFewestPoses || list.size() > kMostPoses) {
+  if (list.size() < kFewestPoses || list.size() > kMaxPoses) {
     list.fault(fault::kOutOfRange, "any_of must have " + std::to_string(kFewestPoses) + " to " +
-                                       std::to_string(kMostPoses) + " poses, not " +
+                                       std::to_string(kMaxPoses) + " poses, not " +
                                        std::to_string(list.size()) +
                                        "; a goal with one pose has it as x, y and theta.");
     return poses;

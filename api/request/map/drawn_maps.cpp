@@ -129,7 +129,7 @@ std::optional<WorldMap> parse_rows_map(const JsonReader& map, std::int64_t max_c
 
 namespace {
 
-constexpr std::size_t kMostDigits = 9;  // digits of a width or height
+constexpr std::size_t kMaxDigits = 9;  // digits of a width or height
 
 /// Reads the lines of a text, with any line endings.
 class Lines {
@@ -174,7 +174,7 @@ std::vector<std::string_view> words_of(std::string_view line) {
 /// Returns a whole number above 0, without leading zeros.
 std::optional<std::uint64_t> side_of(std::string_view word) {
   const bool digits = std::all_of(word.begin(), word.end(), [](char c) { return c >= '0' && c <= '9'; });
-  if (!digits || word.size() > kMostDigits || word.front() == '0') return std::nullopt;
+  if (!digits || word.size() > kMaxDigits || word.front() == '0') return std::nullopt;
   return std::stoull(std::string(word));
 }
 

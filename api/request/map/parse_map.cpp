@@ -186,7 +186,7 @@ std::optional<OccupancyMessage> parse_occupancy_message(const JsonReader& messag
 }
 
 constexpr std::int8_t kLeastBlocked = 65;  // percent
-constexpr std::int8_t kMostFree = 25;
+constexpr std::int8_t kMaxFree = 25;
 constexpr std::array<std::string_view, 2> kUnknown{"blocked", "free"};
 constexpr std::array<std::string_view, 10> kMapImageMembers{
     "pgm",         "png",  "resolution", "origin", "negate", "occupied_thresh",
@@ -196,7 +196,7 @@ constexpr std::array<std::string_view, 10> kMapImageMembers{
 bool parse_unknown(const JsonReader& member) { return member.word(kUnknown).value_or(0) == 1; }
 
 bool is_blocked(std::int8_t percent, bool unknown_is_free) {
-  return percent >= kLeastBlocked || (!unknown_is_free && (percent > kMostFree || percent < 0));
+  return percent >= kLeastBlocked || (!unknown_is_free && (percent > kMaxFree || percent < 0));
 }
 
 Meanings meanings_of_cells(bool unknown_is_free) {

@@ -94,15 +94,15 @@ bool is_on(const Rectangle& rectangle, const core::OccupancyGrid& map) {
          rectangle.high.y() > 0.0;
 }
 
-/// Joins equal runs of rows above each other. Ends soon after there are more than `most` rectangles on the
+/// Joins equal runs of rows above each other. Ends soon after there are more than `max_rectangles` on the
 /// map.
 template <class Value>
 std::vector<Rectangle> rectangles_of(const Raster& raster, const MaskPlace& place,
-                                     const core::OccupancyGrid& map, std::size_t most, core::Work& work,
-                                     const Value& value) {
+                                     const core::OccupancyGrid& map, std::size_t max_rectangles,
+                                     core::Work& work, const Value& value) {
   std::vector<Rectangle> found;
   std::map<Run, int> open;  // open runs, with the rows where they begin
-  for (int row = 0; row <= raster.rows && found.size() <= most; ++row) {
+  for (int row = 0; row <= raster.rows && found.size() <= max_rectangles; ++row) {
     if (work.met_after(static_cast<std::size_t>(raster.columns))) break;
     std::map<Run, int> next;
     if (row < raster.rows) {

@@ -31,7 +31,7 @@ using Corners = std::vector<core::Position>;
 constexpr std::array<std::string_view, 2> kCornerMembers{"x", "y"};
 constexpr std::size_t kFewestCorners = 3;
 /// The most corners of one polygon: in the worst case, every side is compared with every other one.
-constexpr std::size_t kMostCorners = 1000;
+constexpr std::size_t kMaxCorners = 1000;
 /// The work of comparing two sides, in bytes of text.
 constexpr std::size_t kWorkOfAComparison = 8;
 
@@ -136,9 +136,9 @@ std::vector<core::Position> parse_polygon(const JsonReader& member, const WorldF
                "polygon must have at least 3 corners, not " + std::to_string(list.size()) + '.');
     return {};
   }
-  if (list.size() > kMostCorners) {
+  if (list.size() > kMaxCorners) {
     list.fault(fault::kOutOfRange, "polygon has " + std::to_string(list.size()) + " corners; it may have " +
-                                       std::to_string(kMostCorners) + ". Divide it into several zones.");
+                                       std::to_string(kMaxCorners) + ". Divide it into several zones.");
     return {};
   }
   Corners read = parse_corners(list, frame);

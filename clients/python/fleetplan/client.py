@@ -22,8 +22,8 @@ from fleetplan.types import (AdvanceAnswer, AssignAnswer, DependenciesAnswer, Di
 _PROBLEM_WITHOUT_BODY = "the answer is not problem details; is this a proxy?"
 _RETRY_AFTER = 1.0  # seconds, if the server does not say
 _LEAST_WAIT = 0.25  # seconds, whatever it says
-_MOST_BYTES = 256 << 20  # of an answer
-_MOST_BUDGET = 1e9  # milliseconds: more is no time budget
+_MAX_BYTES = 256 << 20  # of an answer
+_MAX_BUDGET = 1e9  # milliseconds: more is no time budget
 
 
 class Client:
@@ -33,7 +33,7 @@ class Client:
     """
 
     def __init__(self, url: str = "http://localhost:8080", *, token: str | None = None, timeout: float = 10.0,
-                 patience: float = 30.0, context: ssl.SSLContext | None = None, max_answer: int = _MOST_BYTES) -> None:
+                 patience: float = 30.0, context: ssl.SSLContext | None = None, max_answer: int = _MAX_BYTES) -> None:
         """`token`: of servers that require one. `timeout`: seconds that a request may take as a whole, from its
         connection to the end of its answer, beside its time budget; between events, the server may be silent for so
         long. `patience`: seconds in which a request to a busy server is sent again; 0 for never. `context`: of https;
@@ -245,7 +245,7 @@ def _budget(request: Mapping[str, object]) -> float:
     options = request.get("options")
     given = options.get("time_budget_ms") if isinstance(options, Mapping) else None
     default = 5000.0  # of the server, unless it is set otherwise
-    return (given if isinstance(given, int | float) and 0.0 <= given <= _MOST_BUDGET else default) / 1000.0
+    return (given if isinstance(given, int | float) and 0.0 <= given <= _MAX_BUDGET else default) / 1000.0
 
 
 def _as_error(problem: Mapping[str, object]) -> ProblemError:

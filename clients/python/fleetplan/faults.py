@@ -9,7 +9,7 @@ from fleetplan.errors import FleetplanError
 
 _LOG = logging.getLogger("fleetplan")
 _AGAIN = 60.0  # seconds: the same is not logged more often
-_MOST = 1000  # different ones that are remembered
+_MAX = 1000  # different ones that are remembered
 
 OnFault = Callable[[FleetplanError], None]
 
@@ -38,7 +38,7 @@ class Faults:
         with self._lock:
             if now - self._logged.get(text, -_AGAIN) < _AGAIN:
                 return False
-            if len(self._logged) >= _MOST:
+            if len(self._logged) >= _MAX:
                 self._logged.clear()
             self._logged[text] = now
             return True

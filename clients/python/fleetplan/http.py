@@ -20,9 +20,9 @@ from urllib.parse import urlsplit
 from fleetplan.errors import ConnectionFailed, InvalidAnswer, InvalidValue, shown
 
 _LOST = (OSError, http.client.HTTPException, ValueError, MemoryError)  # ValueError: lengths and names that are none
-_MOST_IDLE = 4  # connections that are kept
+_MAX_IDLE = 4  # connections that are kept
 _PIECE = 1 << 16  # bytes
-_MOST_SECONDS = 7 * 86400.0  # of an exchange
+_MAX_SECONDS = 7 * 86400.0  # of an exchange
 
 
 @dataclass(frozen=True)
@@ -40,13 +40,13 @@ class _TooLarge(OSError):
 class Bounds:
     """Of one exchange."""
 
-    def __init__(self, silence: float, whole: float, most_bytes: int) -> None:
-        """`silence`: seconds for which the server may be silent. `whole`: seconds for all. `most_bytes`: of the answer,
+    def __init__(self, silence: float, whole: float, max_bytes: int) -> None:
+        """`silence`: seconds for which the server may be silent. `whole`: seconds for all. `max_bytes`: of the answer,
         or of each event."""
-        self.silence = min(silence, _MOST_SECONDS)
-        self._most_bytes = self._bytes_left = most_bytes
+        self.silence = min(silence, _MAX_SECONDS)
+        self._max_bytes = self._bytes_left = max_bytes
         self._heard = time.monotonic()
-        self._until = self._heard + min(whole, _MOST_SECONDS)
+        self._until = self._heard + min(whole, _MAX_SECONDS)
 
     def patience(self) -> float:
         """Seconds for which to wait for the next bytes."""
@@ -63,13 +63,13 @@ class Bounds:
 
     def pass_event(self, seconds: float) -> None:
         """An event has come to its end. What the caller does with it takes so long, which does not count."""
-        self._bytes_left = self._most_bytes
+        self._bytes_left = self._max_bytes
         self._until += seconds
 
     @property
-    def most_line(self) -> int:
+    def max_line(self) -> int:
         """Bytes; more do not come."""
-        return self._most_bytes + _PIECE
+        return self._max_bytes + _PIECE
 
     @property
     def is_silent(self) -> bool:
@@ -222,7 +222,7 @@ class Response:
 
     def _line(self) -> bytes:
         try:
-            return self._raw.readline(self._bounds.most_line)
+            return self._raw.readline(self._bounds.max_line)
         except _LOST as error:
             self._fail(error)
 
@@ -283,7 +283,7 @@ class Pool:
 
     def keep(self, connection: _Connection) -> None:
         with self._lock:
-            if len(self._idle) < _MOST_IDLE:
+            if len(self._idle) < _MAX_IDLE:
                 self._idle.append(connection)
                 return
         connection.close()

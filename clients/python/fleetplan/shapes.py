@@ -6,7 +6,7 @@ import typing
 from collections.abc import Callable, Mapping
 from typing import Any, Literal, Union
 
-_MOST = 1e15  # of a number of the service: none is larger
+_MAX = 1e15  # of a number of the service: none is larger
 
 _Check = Callable[[object], None]
 
@@ -30,7 +30,7 @@ def check(value: object, kind: Any) -> None:
 
 def is_number(value: object) -> bool:
     """Whether it is a finite number that the service could have sent."""
-    return isinstance(value, int | float) and not isinstance(value, bool) and -_MOST < value < _MOST
+    return isinstance(value, int | float) and not isinstance(value, bool) and -_MAX < value < _MAX
 
 
 @functools.cache

@@ -8,10 +8,10 @@ from fleetplan.errors import InvalidValue, shown
 from fleetplan.http import read_json
 from fleetplan.types import VdaMessage
 
-_MOST_ID = 4294967294  # what the service reads of numbers of orders and nodes
+_MAX_ID = 4294967294  # what the service reads of numbers of orders and nodes
 _FARTHEST = 1e9  # metres
-_MOST_BYTES = 1 << 20  # of a message
-_MOST_ITEMS = 10000  # of a list
+_MAX_BYTES = 1 << 20  # of a message
+_MAX_ITEMS = 10000  # of a list
 _LONGEST = 1024  # characters of a name
 
 _NAMES = ("orderId", "lastNodeId", "nodeId", "edgeId", "actionId", "actionStatus", "actionType", "errorLevel", "mapId",
@@ -37,7 +37,7 @@ class SentState(VdaMessage):
 
 def state_on(topic: str, payload: bytes) -> SentState:
     """The state that came on a topic. Raises InvalidValue if it is no state, or says that another vehicle has sent it."""
-    if len(payload) > _MOST_BYTES:
+    if len(payload) > _MAX_BYTES:
         raise InvalidValue(f"a message of {len(payload)} bytes is too long")
     state, levels = read_json(payload), topic.split("/")
     if not isinstance(state, dict):
@@ -102,7 +102,7 @@ def _number(name: str, value: object) -> float:
 def _id(name: str, value: object) -> int:
     if isinstance(value, float) and math.isfinite(value) and value.is_integer():
         value = int(value)
-    if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value <= _MOST_ID:
+    if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value <= _MAX_ID:
         raise InvalidValue(f"has the {name} {shown(value)}")
     return value
 
@@ -114,7 +114,7 @@ def _flag(name: str, value: object) -> bool:
 
 
 def _list(name: str, value: object) -> list[VdaMessage]:
-    if not isinstance(value, Sequence) or isinstance(value, str) or len(value) > _MOST_ITEMS:
+    if not isinstance(value, Sequence) or isinstance(value, str) or len(value) > _MAX_ITEMS:
         raise InvalidValue(f"has {name} that are no list, or too long a one")
     return [_inside(name, item) for item in value]
 

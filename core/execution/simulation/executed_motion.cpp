@@ -267,13 +267,13 @@ class ActionJoiner {
 
 std::optional<std::vector<Action>> disturbed_actions(const std::vector<Action>& planned,
                                                      const DisturbedActions& disturbed,
-                                                     const ExecutedProgress& progress, std::size_t most,
-                                                     const StopCondition& stop) {
+                                                     const ExecutedProgress& progress,
+                                                     std::size_t max_actions, const StopCondition& stop) {
   ActionJoiner joiner;
   const auto add = [&](const Action& action, const DisturbedPath& path, const ExecutionKnot& from,
                        const ExecutionKnot& to) {
     joiner.add(action, path, from, to);
-    return joiner.count() <= most;
+    return joiner.count() <= max_actions;
   };
   if (!visit_pieces(planned, disturbed, progress, stop, add)) return std::nullopt;
   return joiner.take();

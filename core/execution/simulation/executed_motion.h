@@ -42,11 +42,11 @@ std::optional<std::vector<Leg>> executed_legs(const Robot& robot, const std::vec
 /// Returns the executed motion as actions, contiguous in time and space: planned actions at their executed
 /// times, cut where the robot halts, or where the offset from its path changes. Headings are those of the
 /// plan. Of an action with a profile, the parts have one, too, unless a clock changed their acceleration.
-/// Returns none if there are more than `most`, or if `stop` is met first.
+/// Returns none if there are more than `max_actions`, or if `stop` is met first.
 std::optional<std::vector<Action>> disturbed_actions(const std::vector<Action>& planned,
                                                      const DisturbedActions& disturbed,
-                                                     const ExecutedProgress& progress, std::size_t most,
-                                                     const StopCondition& stop);
+                                                     const ExecutedProgress& progress,
+                                                     std::size_t max_actions, const StopCondition& stop);
 
 /// Returns the progress of robots that follow their profiles as time goes by: `by_time` has fractions of the
 /// planned duration of actions, and constant speeds.

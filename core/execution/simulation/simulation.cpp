@@ -14,7 +14,7 @@ namespace fleetplan::core {
 namespace {
 
 /// The most overlaps of one execution that are told apart: many robots in one place have millions of them.
-constexpr std::size_t kMostOverlaps = 10'000;
+constexpr std::size_t kMaxOverlaps = 10'000;
 
 /// Legs between two checks of the stop condition; each takes time in proportion to the blocked cells near it.
 constexpr std::size_t kLegsBetweenPolls = 8;
@@ -61,13 +61,13 @@ std::optional<ExecutionCollisions> find_collisions(const std::vector<std::vector
                                                    const std::vector<std::size_t>& near_walls,
                                                    const StopCondition& stop) {
   const std::vector<double> tolerances(radii.size(), tolerance);
-  const auto clearance = fleet_clearance(legs, {radii, radii}, tolerances, kMostOverlaps, stop);
+  const auto clearance = fleet_clearance(legs, {radii, radii}, tolerances, kMaxOverlaps, stop);
   if (!clearance) return std::nullopt;
   ExecutionCollisions found;
   const auto consider = [&](const ExecutedCollision& collision) {
     if (!found.first || is_earlier(collision, *found.first)) found.first = collision;
   };
-  for (const Overlap& overlap : clearance->overlaps) {  // at most kMostOverlaps
+  for (const Overlap& overlap : clearance->overlaps) {  // at most kMaxOverlaps
     found.pairs.emplace_back(overlap.first, overlap.second);
     const double t = overlap.t_begin;
     const Position a = position_of(legs[overlap.first], t);
@@ -93,7 +93,7 @@ constexpr std::size_t kRunsOfATask = 4;
 constexpr std::size_t kTasksOfARound = 16;
 /// Metres by which disks may overlap: the default tolerance of POST /v1/validate, which dependencies may use
 /// in full, and as much again for rounding.
-constexpr double kTolerance = 2.0 * kMostTolerance;
+constexpr double kTolerance = 2.0 * kMaxTolerance;
 
 /// Adds up the runs in their order.
 class Study {
@@ -109,14 +109,14 @@ class Study {
     const std::size_t number = report_.totals.done++;
     if (run.collisions.first) {
       ++report_.totals.collided;
-      if (report_.first_collisions.size() < SimulationReport::kMostListed) {
+      if (report_.first_collisions.size() < SimulationReport::kMaxListed) {
         report_.first_collisions.push_back({number, *run.collisions.first});
       }
     }
     for (const auto& pair : run.collisions.pairs) ++pairs_[pair];
     if (!run.stuck.empty()) {
       ++report_.totals.deadlocked;
-      if (report_.deadlocks.size() < SimulationReport::kMostListed) {
+      if (report_.deadlocks.size() < SimulationReport::kMaxListed) {
         report_.deadlocks.push_back({number, run.stuck});
       }
     }
@@ -136,7 +136,7 @@ class Study {
         listed.begin(), listed.end(), pair,
         [](const SimulationReport::Pair& a, const SimulationReport::Pair& b) { return a.runs > b.runs; });
     listed.insert(place, pair);
-    if (listed.size() > SimulationReport::kMostListed) listed.pop_back();
+    if (listed.size() > SimulationReport::kMaxListed) listed.pop_back();
   }
 
   void add_times(const Simulator::Run& run) {
@@ -224,16 +224,17 @@ std::optional<Simulator::Run> Simulator::run(std::uint64_t number, const StopCon
 }
 
 std::optional<SimulationTrace> trace_run(const SimulatedFleet& fleet, const SimulationSettings& settings,
-                                         std::uint64_t number, std::size_t most, const StopCondition& stop) {
+                                         std::uint64_t number, std::size_t max_actions,
+                                         const StopCondition& stop) {
   const auto executed = execute_run(fleet, settings, number, stop);
   if (!executed) return std::nullopt;
   SimulationTrace trace;
   const std::vector<RobotPlan>& plans = fleet.execution.plans;
   for (std::size_t plan = 0; plan < plans.size(); ++plan) {
     auto actions = disturbed_actions(plans[plan].actions, executed->disturbed[plan], executed->progress[plan],
-                                     most, stop);
+                                     max_actions, stop);
     if (!actions) return std::nullopt;
-    most -= actions->size();
+    max_actions -= actions->size();
     trace.actions.push_back(std::move(*actions));
   }
   return trace;

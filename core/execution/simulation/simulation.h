@@ -110,9 +110,11 @@ struct SimulationTrace {
   std::vector<std::vector<Action>> actions;
 };
 
-/// Executes one run and returns the actions; none if there are more than `most`, or if `stop` is met first.
+/// Executes one run and returns the actions; none if there are more than `max_actions`, or if `stop` is met
+/// first.
 std::optional<SimulationTrace> trace_run(const SimulatedFleet& fleet, const SimulationSettings& settings,
-                                         std::uint64_t number, std::size_t most, const StopCondition& stop);
+                                         std::uint64_t number, std::size_t max_actions,
+                                         const StopCondition& stop);
 
 /// Progress of a study.
 struct SimulationProgress {
@@ -137,7 +139,7 @@ struct SimulationReport {
     std::size_t second = 0;
     std::size_t runs = 0;  // number of runs in which they collide
   };
-  static constexpr std::size_t kMostListed = 20;
+  static constexpr std::size_t kMaxListed = 20;
 
   SimulationProgress totals;
   std::vector<double> flowtimes;  // seconds, in the runs in which all robots arrive

@@ -14,7 +14,7 @@ namespace {
 // The least number of windows: with fewer, plans of few actions would have long windows with large boxes.
 constexpr std::size_t kFewestWindows = 64;
 // The greatest number of windows: more would cost more than they save, as each window visits every robot.
-constexpr std::size_t kMostWindows = 4096;
+constexpr std::size_t kMaxWindows = 4096;
 constexpr std::size_t kWindowsPerLeg = 2;
 
 void add_leg_end_times(const std::vector<std::vector<Leg>>& legs_by_body, std::vector<double>& times) {
@@ -38,9 +38,9 @@ std::vector<double> time_windows(const std::vector<std::vector<Leg>>& legs_by_ro
   if (times.empty() || times.back() <= 0.0) return boundaries;
 
   const std::size_t legs_per_robot = 1 + times.size() / (legs_by_robot.size() + others.size());
-  const std::size_t wanted = std::min(kWindowsPerLeg * legs_per_robot, kMostWindows);
+  const std::size_t wanted = std::min(kWindowsPerLeg * legs_per_robot, kMaxWindows);
   const std::size_t parts = (kFewestWindows + wanted - 1) / wanted;
-  // Bounded: at most kMostWindows, in kFewestWindows parts.
+  // Bounded: at most kMaxWindows, in kFewestWindows parts.
   for (std::size_t k = 1; k <= wanted; ++k) {
     // The k-th quantile, so that one very slow robot does not put all others into one window.
     const double end = times[(times.size() - 1) * k / wanted];
@@ -113,7 +113,7 @@ void OverlapList::add(std::size_t first, std::size_t second, const RelativeMotio
     // Disks with equal velocities come nearer only by rounding, which makes no later moment deeper.
     if (closest.distance < overlap.distance - kSamePosition) overlap.t_deepest = closest.t;
     overlap.distance = std::min(overlap.distance, closest.distance);
-  } else if (overlaps_.size() < most_) {
+  } else if (overlaps_.size() < max_) {
     latest_[pair] = overlaps_.size();
     overlaps_.push_back({.first = first,
                          .second = second,

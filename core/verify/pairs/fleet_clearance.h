@@ -67,8 +67,8 @@ struct Overlap {
 /// Collects the overlaps of pairs, piece of time by piece of time.
 class OverlapList {
  public:
-  /// A list of at most `most` overlaps; further ones are left out.
-  explicit OverlapList(std::size_t most) : most_(most) {}
+  /// A list of at most `max` overlaps; further ones are left out.
+  explicit OverlapList(std::size_t max) : max_(max) {}
 
   /// Adds the time in which the two are nearer than `allowed` metres, if there is any. The pieces of one pair
   /// come in the order of time; an overlap that goes on from one piece to the next is one.
@@ -77,7 +77,7 @@ class OverlapList {
   std::vector<Overlap> take();
 
  private:
-  std::size_t most_;
+  std::size_t max_;
   std::vector<Overlap> overlaps_;
   std::unordered_map<std::uint64_t, std::size_t> latest_;  // by pair, the index of its last overlap
 };

@@ -17,7 +17,7 @@ namespace {
 
 /// How much earlier than an overlap by more than a tolerance an unavoidable collision may begin, in metres:
 /// it may begin when the disks touch.
-constexpr double kTouching = 2.0 * kMostTolerance;
+constexpr double kTouching = 2.0 * kMaxTolerance;
 
 /// Rounding of the time of an unavoidable collision that went through decimal text, seconds.
 constexpr double kTextRounding = 1e-6;
@@ -110,7 +110,7 @@ bool Exemptions::is_certain(std::size_t position, double t) const {
 void Exemptions::count(std::size_t position, double t, std::vector<std::size_t>& collisions) {
   std::size_t first = position;
   while (first > 0 && fleet_.same_robot(first - 1, position)) --first;
-  if (++collisions[first] < kMostUnavoidableOfRobot) return;
+  if (++collisions[first] < kMaxUnavoidableOfRobot) return;
   double& from = certain_[first].exempt_from;
   from = std::isinf(from) ? t : std::max(from, t);
   for (std::size_t next = first + 1; next < fleet_.size() && fleet_.same_robot(first, next); ++next) {
@@ -158,7 +158,7 @@ constexpr std::size_t kPiecesBetweenPolls = 256;
 /// Windows in which obstacles have about the same number of legs, in addition to those of the robots.
 constexpr std::size_t kObstacleWindows = 64;
 /// The most ends of legs from which these windows are found.
-constexpr std::size_t kMostSamples = 4096;
+constexpr std::size_t kMaxSamples = 4096;
 
 /// Compares, in each time window, every leg of an obstacle with the robots whose boxes it comes near. There
 /// may be far more legs of obstacles than robots, so they are not sorted.
@@ -193,7 +193,7 @@ class ObstacleSweep {
   std::vector<double> windows() const {
     std::size_t legs = 0;
     for (const std::vector<Leg>& all : obstacles_) legs += all.size();
-    const std::size_t stride = 1 + legs / kMostSamples;
+    const std::size_t stride = 1 + legs / kMaxSamples;
     std::vector<double> ends;
     std::size_t k = 0;
     // Bounded: the legs that there are, each once.
@@ -324,12 +324,12 @@ std::vector<TimeSpan> without(const TimeSpan& span, const std::vector<TimeSpan>&
 class MarginSweep {
  public:
   MarginSweep(const ExecutedFleet& fleet, double margin, double inflation, const TimesLeftOut& left_out,
-              std::size_t most, const StopCondition& stop)
+              std::size_t max_overlaps, const StopCondition& stop)
       : fleet_(fleet),
         margin_(margin),
         inflation_(inflation),
         left_out_(left_out),
-        most_(most),
+        max_overlaps_(max_overlaps),
         stop_(stop),
         stride_(stop, kComparisonsBetweenPolls) {}
 
@@ -413,7 +413,7 @@ class MarginSweep {
     const auto found = deepest_.find(pair);
     if (found != deepest_.end()) {
       if (overlap.distance < found->second.distance) found->second = overlap;
-    } else if (deepest_.size() < most_) {
+    } else if (deepest_.size() < max_overlaps_) {
       deepest_.emplace(pair, overlap);
     }
   }
@@ -422,7 +422,7 @@ class MarginSweep {
   double margin_;
   double inflation_;
   const TimesLeftOut& left_out_;
-  std::size_t most_;
+  std::size_t max_overlaps_;
   const StopCondition& stop_;
   StopStride stride_;
   std::map<std::pair<std::size_t, std::size_t>, ShiftedOverlap> deepest_;  // by pair
@@ -433,10 +433,10 @@ class MarginSweep {
 std::optional<std::vector<ShiftedOverlap>> overlaps_within_margin(const ExecutedFleet& fleet, double margin,
                                                                   double inflation,
                                                                   const TimesLeftOut& left_out,
-                                                                  std::size_t most,
+                                                                  std::size_t max_overlaps,
                                                                   const StopCondition& stop) {
   if (margin <= 0.0) return std::vector<ShiftedOverlap>{};
-  return MarginSweep(fleet, margin, inflation, left_out, most, stop).run();
+  return MarginSweep(fleet, margin, inflation, left_out, max_overlaps, stop).run();
 }
 
 }  // namespace fleetplan::core

@@ -21,7 +21,7 @@ namespace fleetplan::core {
 
 /// The times at which pairs may collide, see CheckRules::exempt. Unavoidable collisions count only if they
 /// begin while both bodies do what is certain: obstacles move, robots execute their commitments, and robots
-/// without a plan or a goal stay for ever where these end. A robot with kMostUnavoidableOfRobot collisions
+/// without a plan or a goal stay for ever where these end. A robot with kMaxUnavoidableOfRobot collisions
 /// has no more listed, so all that it certainly does is exempt from the last one on.
 class Exemptions {
  public:
@@ -86,14 +86,14 @@ struct ShiftedOverlap {
 /// Returns the times of a pair that the margin leaves out: no time of either robot lies in one of them.
 using TimesLeftOut = std::function<std::vector<TimeSpan>(std::size_t first, std::size_t second)>;
 
-/// Returns the deepest overlap within the margin of each pair, in the order of the pairs, at most `most`.
-/// Times differ by `margin` or less. Left out are times at which both robots execute commitments or one of
-/// them stays at the end of its commitment before it first leaves. All radii are enlarged by `inflation` and
-/// the vicinity. Returns none if `stop` is met first.
+/// Returns the deepest overlap within the margin of each pair, in the order of the pairs, at most
+/// `max_overlaps`. Times differ by `margin` or less. Left out are times at which both robots execute
+/// commitments or one of them stays at the end of its commitment before it first leaves. All radii are
+/// enlarged by `inflation` and the vicinity. Returns none if `stop` is met first.
 std::optional<std::vector<ShiftedOverlap>> overlaps_within_margin(const ExecutedFleet& fleet, double margin,
                                                                   double inflation,
                                                                   const TimesLeftOut& left_out,
-                                                                  std::size_t most,
+                                                                  std::size_t max_overlaps,
                                                                   const StopCondition& stop);
 
 /// Returns the overlaps of robots (`first`, a position in the fleet) and obstacles (`second`) by more than

@@ -67,8 +67,8 @@ double distance_from_walls(const ObstacleField& field, const Position& position,
 
 /// Returns the distance from obstacles that a robot has to keep during each of its legs, metres: its radius
 /// there, and after its commitment the inflated one. A robot that begins nearer, as the rules allow, comes no
-/// nearer than it is until a leg of it ends clear. `distance_from(position, most)` returns the distance of a
-/// position from obstacles, at most `most`.
+/// nearer than it is until a leg of it ends clear. `distance_from(position, max)` returns the distance of a
+/// position from obstacles, at most `max`.
 std::vector<double> distances_to_keep(const std::function<double(const Position&, double)>& distance_from,
                                       const std::vector<double>& radii, const std::vector<Leg>& legs,
                                       const Handover& handover, double tolerance, const CheckRules& rules);

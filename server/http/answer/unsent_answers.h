@@ -20,7 +20,7 @@ class UnsentAnswers {
  public:
   class Answer;
 
-  /// Keeps at most `most` bytes of all answers together, or of the newest answer alone if that is larger.
+  /// Keeps at most `max_bytes` of all answers together, or of the newest answer alone if that is larger.
   explicit UnsentAnswers(std::size_t max_bytes) : max_bytes_(max_bytes) {}
 
   struct Stats {

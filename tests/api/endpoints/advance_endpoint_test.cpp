@@ -355,7 +355,7 @@ TEST(AdvanceEndpoint, RobotsThatAreMeasuredInEachOtherAreNamedAndMayPart) {
 TEST(AdvanceEndpoint, PairsThatOverlapAreCountedAndTheFirstOfThemListed) {
   constexpr std::size_t kRobots = 150;
   constexpr std::size_t kPairs = kRobots * (kRobots - 1) / 2;
-  constexpr std::size_t kMostListed = 10'000;
+  constexpr std::size_t kMaxListed = 10'000;
   Json body = Json::parse(R"({"request": {"map": {"rows": []}, "robots": [],
     "robot_defaults": {"radius": 0.3, "linear_speed": 1.0, "angular_speed": 3.0}}, "plans": [], "at": 1})");
   for (std::size_t k = 0; k < kRobots; ++k) {
@@ -366,7 +366,7 @@ TEST(AdvanceEndpoint, PairsThatOverlapAreCountedAndTheFirstOfThemListed) {
     body["poses"].push_back({{"robot", id}, {"x", 1.5}, {"y", 1.5}, {"theta", 0.0}});
   }
   const Json next = advanced_json(body);
-  EXPECT_EQ(next["unavoidable"].size(), kMostListed);
+  EXPECT_EQ(next["unavoidable"].size(), kMaxListed);
   EXPECT_EQ(next["unavoidable_total"], kPairs);
   body["poses"].erase(body["poses"].begin(), body["poses"].end() - 2);
   body["request"]["unavoidable_total"] = kPairs;  // of an answer before, which is the next request

@@ -137,10 +137,10 @@ void expect_answer(const Reply& reply) {
 }
 
 /// Questions after the last one of the time: each loop ends, and each robot may be asked about a few times.
-constexpr std::int64_t kMostLate = 200;
+constexpr std::int64_t kMaxLate = 200;
 /// The checks of previous plans and of the answer outlast the budget of a plan by so many questions at most;
 /// here they may take as many as they like.
-constexpr std::int64_t kMostOfChecks = 2000;
+constexpr std::int64_t kMaxOfChecks = 2000;
 constexpr std::int64_t kPatience = 1'000'000;
 
 /// With patience, plans are checked whenever the budget ends.
@@ -158,7 +158,7 @@ void expect_answers_at_every_moment(Endpoint endpoint, const Json& request, std:
     support::StepLimit limit(steps, patience);
     const Reply reply = endpoint(body, ended_by(limit));
     expect_answer(reply);
-    EXPECT_LE(limit.late(), kMostLate + (patience > 0 ? kMostOfChecks : 0));
+    EXPECT_LE(limit.late(), kMaxLate + (patience > 0 ? kMaxOfChecks : 0));
     if (patience > 0) {
       EXPECT_NE(reply.problem, "check_unfinished");
     }

@@ -59,7 +59,7 @@ void expect_that_all_may_stop(const Json& request, const core::Problem& problem,
     if (!robot.committed.empty()) stops.push_back({k, robot.committed_until(), robot.committed});
   }
   core::CheckRules rules;
-  rules.tolerances.assign(robots.size(), core::Tolerance::of_all(core::kMostTolerance));
+  rules.tolerances.assign(robots.size(), core::Tolerance::of_all(core::kMaxTolerance));
   rules.start_overlap = start_overlap;
   rules.horizon = 0.0;  // with goals left
   const auto report = core::verify({problem.grid(), robots, {}, &problem.zones()}, stops, rules,

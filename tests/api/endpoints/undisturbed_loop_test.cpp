@@ -100,7 +100,7 @@ void expect_that_all_may_stop(const Json& request) {
     if (!robots[k].committed.empty()) stops.push_back({k, robots[k].committed_until(), robots[k].committed});
   }
   core::CheckRules rules;
-  rules.tolerances.assign(robots.size(), core::Tolerance::of_all(core::kMostTolerance));
+  rules.tolerances.assign(robots.size(), core::Tolerance::of_all(core::kMaxTolerance));
   rules.horizon = 0.0;
   const auto report =
       core::verify({parsed->problem.grid(), robots, {}}, stops, rules, core::StopCondition::never());

@@ -96,7 +96,7 @@ TEST(Tolerances, DoNotDependOnTheSpeedOfOtherRobots) {
   const core::Problem problem = std::move(parse_request(request.dump(), {}, unbounded_work())->problem);
   std::vector<core::RobotPlan> plans{{0, 5000.0, {}, 0.0}, {1, 5000.0, {}, 0.0}};
   for (const core::Tolerance& tolerance : core::plan_tolerances(problem.grid(), problem.robots(), plans)) {
-    EXPECT_LE(tolerance.metres, core::kMostTolerance);
+    EXPECT_LE(tolerance.metres, core::kMaxTolerance);
     EXPECT_LE(tolerance.radians, 1e-8);
     EXPECT_LE(tolerance.seconds, 1e-8);
   }

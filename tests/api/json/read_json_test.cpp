@@ -167,7 +167,7 @@ TEST(ReadJson, MakesAtMostTwentyTextsAndCountsAllFaults) {
   for (int count = 0; count < 1000; ++count) body += ",\"k\":0";
   JsonDocument read = document(body + "}");
   EXPECT_EQ(read.faults.count(), 1000U);
-  EXPECT_EQ(read.faults.listed().size(), FaultList::kMostListed);
+  EXPECT_EQ(read.faults.listed().size(), FaultList::kMaxListed);
   EXPECT_EQ(read.faults.listed().front().pointer, "/k");
 }
 

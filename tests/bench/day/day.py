@@ -30,7 +30,7 @@ ACCELERATION = 1.0  # metres per second squared: of robots, also when they brake
 BRAKES = 0.8  # metres per second squared: with which they are told to brake
 COMMIT = 2.4  # seconds: that of FleetLoop for its time budget and these brakes, whatever the budget is here
 STARVED = 300.0  # seconds
-MOST_TO_FINISH = 900.0  # seconds after the last task was offered
+MAX_TO_FINISH = 900.0  # seconds after the last task was offered
 
 
 class Day:
@@ -74,9 +74,9 @@ class Day:
             self.offered_until = self.fleet.now
         self.wall_seconds += time.monotonic() - begin
 
-    def finish(self, most_seconds):
+    def finish(self, max_seconds):
         """Goes on without other tasks until all are done, or for so long."""
-        end = self.fleet.now + most_seconds
+        end = self.fleet.now + max_seconds
         while (self.tasks.active or self.tasks.waiting) and self.fleet.now < end:
             self.run(1.0, offer=False)
 
@@ -176,7 +176,7 @@ def main(program, words):
             print(f"{day.fleet.now:.0f} s: {len(day.tasks.done)} of {day.tasks.offered} tasks done, {dict(day.rounds)}, "
                   f"{len(day.failures)} failures, {len(day.watch.overlaps)} overlaps", *day.failures[-1:],
                   file=sys.stderr, flush=True)
-        day.finish(MOST_TO_FINISH)
+        day.finish(MAX_TO_FINISH)
     report = day.report()
     pathlib.Path(arguments.output, "day.json").write_text(json.dumps(report, indent=1) + "\n")
     for name, value in report.items():

@@ -12,7 +12,7 @@ HOLD, CLOSURE = 30.0, 180.0  # seconds
 NOTICED = 5.0  # seconds until a breakdown is known
 RENEWED = 20.0  # seconds: how long a robot that has broken down is held at a time
 CLOSED_LENGTH = 6.0  # metres of an aisle
-MOST_TRIES = 50  # to find one that can be closed
+MAX_TRIES = 50  # to find one that can be closed
 PERSON = 0.3  # metres: radius
 SEEN = 8.0  # seconds: how far ahead the way of a person is known
 PATIENCE = 3.0  # seconds until a person who is hindered turns round
@@ -80,7 +80,7 @@ class Person:
         self.trapped = max(0.0, self.trapped - seconds)
 
     def step_aside(self):
-        for _ in range(MOST_TRIES):
+        for _ in range(MAX_TRIES):
             self.x, self.row = self.rng.choice(CROSSINGS), self.rng.randrange(AISLES)
             self.y, self.along, self.hindered, self.trapped = self.lane(), True, 0.0, 0.0
             self.target = self.x, self.y
@@ -196,7 +196,7 @@ class Disturbances:
         """A part of an aisle, where no robot is or goes."""
         places = [(x, y) for x, y, _ in robots]
         places += [(goal["x"], goal["y"]) for task in [*tasks.waiting, *tasks.active.values()] for goal in task.goals]
-        for _ in range(MOST_TRIES):
+        for _ in range(MAX_TRIES):
             begin, end = self.rng.choice(BLOCKS)
             low, left = aisle_of(self.rng.randrange(AISLES)), self.rng.uniform(begin, end - CLOSED_LENGTH)
             rectangle = left, low, left + CLOSED_LENGTH, low + AISLE

@@ -41,8 +41,8 @@ void Fleet::draw_goal(Vehicle& vehicle) {
       return apart < vehicle.type.radius + other.type.radius;  // its own last goal, too
     });
   };
-  constexpr int kMostDraws = 100'000;
-  for (int drawn = 0; drawn < kMostDraws; ++drawn) {
+  constexpr int kMaxDraws = 100'000;
+  for (int drawn = 0; drawn < kMaxDraws; ++drawn) {
     const core::Pose& place = places[random_.below(places.size())];
     if (!is_free(place)) continue;
     vehicle.goal = place;

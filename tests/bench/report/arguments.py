@@ -15,7 +15,7 @@ QUICK_SEEDS = "1-3"
 QUICK_ROBOTS = "60-300:60"
 FULL_SEEDS = f"{paper.SEEDS.start}-{paper.SEEDS[-1]}"
 FULL_ROBOTS = f"{paper.ROBOTS.start}-{paper.ROBOTS[-1]}:{paper.ROBOTS.step}"
-MOST_NUMBERS = 100_000  # longer lists are mistakes
+MAX_NUMBERS = 100_000  # longer lists are mistakes
 
 
 def numbers(text):
@@ -27,7 +27,7 @@ def numbers(text):
             raise argparse.ArgumentTypeError(f"'{text}' is not a list of numbers")
         first = int(match[1])
         last, step = int(match[2] or first), int(match[3] or 1)
-        if step == 0 or last < first or (last - first) // step > MOST_NUMBERS:
+        if step == 0 or last < first or (last - first) // step > MAX_NUMBERS:
             raise argparse.ArgumentTypeError(f"'{part}' is not a range of numbers")
         found += range(first, last + 1, step)
     return found

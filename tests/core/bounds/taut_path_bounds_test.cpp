@@ -416,10 +416,10 @@ TEST(TautPathSearch, NeedsLessWorkWhereAPlanIsKnown) {
   const Problem problem = make_problem(pillars, {robot_at(13.5, 14.5).to(19.5, 14.5)});
   const Instance instance(problem, {}, StopCondition::never());
   const double radius = instance.body(0).wall_radius;
-  const auto work = [&](double at_most) {
+  const auto work = [&](double max_seconds) {
     CornerVisibility corners(problem.grid(), radius, radius, StopCondition::never());
     TautPathSearch search(corners, instance.sight_past_walls(), radius);
-    search.run(legs_of(instance.itinerary(0))[0], instance.body(0), at_most, 1'000'000,
+    search.run(legs_of(instance.itinerary(0))[0], instance.body(0), max_seconds, 1'000'000,
                StopCondition::never());
     return search.work();
   };

@@ -135,7 +135,7 @@ struct IterationsOfLateRobots : LateRobots {
     while (!iteration.options.limits) iteration = iterations.choose();
     return iteration;
   }
-  double most_loss() { return iterations.choose().options.most_loss; }
+  double max_loss() { return iterations.choose().options.max_loss; }
   /// Completes an iteration that lets robot 0 set out at `departure`.
   bool let_depart(double departure) { return complete(choose_search(), departure); }
   bool complete(Iteration iteration, double departure) {
@@ -155,21 +155,21 @@ struct IterationsOfLateRobots : LateRobots {
 
 TEST(Iterations, StrayFartherTheLongerTheyAreInVain) {
   IterationsOfLateRobots p;
-  const double least = p.most_loss();
+  const double least = p.max_loss();
   EXPECT_GT(least, 0.0);
   p.in_vain(8);
-  EXPECT_EQ(p.most_loss(), least) << "four for each robot";
+  EXPECT_EQ(p.max_loss(), least) << "four for each robot";
   p.in_vain(2);
-  EXPECT_DOUBLE_EQ(p.most_loss(), 2.0 * least) << "one more for each";
+  EXPECT_DOUBLE_EQ(p.max_loss(), 2.0 * least) << "one more for each";
   p.in_vain(4);
-  EXPECT_DOUBLE_EQ(p.most_loss(), 8.0 * least);
+  EXPECT_DOUBLE_EQ(p.max_loss(), 8.0 * least);
   EXPECT_TRUE(p.let_depart(9.0));
-  EXPECT_LE(p.most_loss(), least) << "a better plan";
+  EXPECT_LE(p.max_loss(), least) << "a better plan";
 }
 
 TEST(Iterations, ReturnToTheBestPlanAfterTheyHaveStrayed) {
   IterationsOfLateRobots p;
-  const double least = p.most_loss();
+  const double least = p.max_loss();
   p.in_vain(20);
   EXPECT_FALSE(p.let_depart(60.0));
   EXPECT_EQ(p.incumbent.cost(0), LateRobots::row(2.5, 60.0).cost);
@@ -177,10 +177,10 @@ TEST(Iterations, ReturnToTheBestPlanAfterTheyHaveStrayed) {
   EXPECT_EQ(p.incumbent.cost(0), LateRobots::row(2.5, 60.0).cost);
   p.in_vain(1);
   EXPECT_EQ(p.incumbent.cost(0), LateRobots::row(2.5, 10.0).cost) << "as at first";
-  EXPECT_DOUBLE_EQ(p.most_loss(), least);
+  EXPECT_DOUBLE_EQ(p.max_loss(), least);
   EXPECT_EQ(p.iterations.vain(), 24) << "since the best plan was found";
   p.in_vain(2);
-  EXPECT_DOUBLE_EQ(p.most_loss(), 2.0 * least) << "they stray again at once";
+  EXPECT_DOUBLE_EQ(p.max_loss(), 2.0 * least) << "they stray again at once";
 }
 
 TEST(Iterations, SmoothWithoutASearchOnceSearchesAreInVain) {

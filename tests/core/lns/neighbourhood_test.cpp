@@ -157,7 +157,7 @@ TEST(PlanNeighbourhood, AcceptsALossUpToTheLimit) {
   NeighbourhoodOptions options;
   options.min_gain_share = 0.9;
   EXPECT_FALSE(plan_neighbourhood(p.state, {0, 1}, bounds, options, p.random, p.never).change);
-  options.most_loss = 10.0;
+  options.max_loss = 10.0;
   const NeighbourhoodResult result = plan_neighbourhood(p.state, {0, 1}, bounds, options, p.random, p.never);
   ASSERT_TRUE(result.change);
   EXPECT_LT(result.change->gain, 0.0);

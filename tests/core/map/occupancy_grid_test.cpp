@@ -93,7 +93,7 @@ TEST(ObstacleDistance, AgreesWithBruteForceOnRandomMaps) {
 
 /// To the nearest blocked cell, the ring around the map included.
 int squared_distance(const OccupancyGrid& grid, Cell cell) {
-  int least = DistanceTransform::kMostSquared;
+  int least = DistanceTransform::kMaxSquared;
   for (int row = -1; row <= grid.rows(); ++row) {
     for (int column = -1; column <= grid.columns(); ++column) {
       if (!grid.blocked({column, row})) continue;
@@ -129,7 +129,7 @@ TEST(DistanceTransform, CountsTheOutsideAsBlocked) {
 
 TEST(DistanceTransform, CutsLongDistancesOff) {
   const DistanceTransform distances(OccupancyGrid(600, 600, 1.0), StopCondition::never());
-  EXPECT_EQ(distances.squared({300, 300}), DistanceTransform::kMostSquared);
+  EXPECT_EQ(distances.squared({300, 300}), DistanceTransform::kMaxSquared);
   EXPECT_EQ(distances.squared({300, 9}), 100);
 }
 

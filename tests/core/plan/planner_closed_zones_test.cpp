@@ -207,7 +207,7 @@ TEST(ClosedZone, IsForItsRobots) {
 /// The checker's own view of it.
 VerifyReport checked(const Problem& problem, const std::vector<Robot>& robots, std::vector<Action> actions) {
   CheckRules rules;
-  rules.tolerances.assign(robots.size(), Tolerance::of_all(kMostTolerance));
+  rules.tolerances.assign(robots.size(), Tolerance::of_all(kMaxTolerance));
   const double cost = actions.empty() ? 0.0 : actions.back().t_end;
   return *verify({problem.grid(), robots, {}, &problem.zones()}, {{0, cost, std::move(actions)}}, rules,
                  StopCondition::never());

@@ -167,7 +167,7 @@ TEST(PlannerCommitted, TheUnavoidableCollisionsOfARobotAreLimited) {
     people.push_back(person({{3.0 * k, {0.5, 1.5}}, {3.0 * k + 8.0, {8.5, 1.5}}}));
   }
   const Problem problem = with_obstacles(OccupancyGrid(9, 3, 1.0), {robot_at(4.5, 1.5)}, people);
-  EXPECT_EQ(checked_plan(problem).unavoidable.size(), kMostUnavoidableOfRobot);
+  EXPECT_EQ(checked_plan(problem).unavoidable.size(), kMaxUnavoidableOfRobot);
 }
 
 TEST(PlannerCommitted, ARobotWhoseCommitmentMeetsAnObstacleIsPlannedAfterIt) {

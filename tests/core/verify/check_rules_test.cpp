@@ -40,7 +40,7 @@ TEST(PlanTolerances, NeverExceedAMicrometreAndDependOnTheRobotAlone) {
   const std::vector<RobotPlan> plans{{0, 50.0, {}, 0.0}, {1, 1e6, {}, 0.0}, {2, 1e8, {}, 0.0}};
   const auto tolerances = plan_tolerances(OccupancyGrid(1000, 1000, 1000.0), robots, plans);
   for (const Tolerance& tolerance : tolerances) {
-    EXPECT_LE(tolerance.metres, kMostTolerance);
+    EXPECT_LE(tolerance.metres, kMaxTolerance);
     EXPECT_LE(tolerance.seconds, 1e-6);
     EXPECT_LE(tolerance.radians, 1e-8);
   }
@@ -81,18 +81,18 @@ Violation at(double t) { return {Kind::speed, {0}, t, 0.0, 0.0, ""}; }
 
 TEST(ViolationList, KeepsTheFirstByTimeAndCountsAll) {
   ViolationList list;
-  const std::size_t count = 3 * kMostViolations + 5;
+  const std::size_t count = 3 * kMaxViolations + 5;
   for (std::size_t k = 0; k < count; ++k) list.add(at(static_cast<double>(count - k)));
   EXPECT_EQ(list.total(), count);
   const auto kept = list.take();
-  ASSERT_EQ(kept.size(), kMostViolations);
+  ASSERT_EQ(kept.size(), kMaxViolations);
   EXPECT_EQ(kept.front().t, 1.0);
-  EXPECT_EQ(kept.back().t, static_cast<double>(kMostViolations));
+  EXPECT_EQ(kept.back().t, static_cast<double>(kMaxViolations));
 }
 
 TEST(ViolationList, KeepsTheSameInWhateverOrderTheyCome) {
   std::vector<double> times;
-  for (std::size_t k = 0; k < 5 * kMostViolations; ++k) times.push_back(static_cast<double>(k / 3));
+  for (std::size_t k = 0; k < 5 * kMaxViolations; ++k) times.push_back(static_cast<double>(k / 3));
   std::mt19937 random(1);
   for (int order = 0; order < 4; ++order) {
     if (order == 1) std::reverse(times.begin(), times.end());
@@ -101,18 +101,18 @@ TEST(ViolationList, KeepsTheSameInWhateverOrderTheyCome) {
     for (const double t : times) list.add(at(t));
     EXPECT_EQ(list.total(), times.size());
     const auto kept = list.take();
-    ASSERT_EQ(kept.size(), kMostViolations);
+    ASSERT_EQ(kept.size(), kMaxViolations);
     for (std::size_t k = 0; k < kept.size(); ++k) ASSERT_EQ(kept[k].t, static_cast<double>(k / 3));
   }
 }
 
 TEST(ViolationList, CountsThoseOfAnotherListThatItDropped) {
   ViolationList many;
-  for (std::size_t k = 0; k < 2 * kMostViolations; ++k) many.add(at(0.0));
+  for (std::size_t k = 0; k < 2 * kMaxViolations; ++k) many.add(at(0.0));
   ViolationList all;
   all.add(at(1.0));
   all.add(std::move(many));
-  EXPECT_EQ(all.total(), 2 * kMostViolations + 1);
+  EXPECT_EQ(all.total(), 2 * kMaxViolations + 1);
 }
 
 /// A robot that leaps to and fro between two blocked cells, much faster than it can.
@@ -141,7 +141,7 @@ TEST(Verify, ReportsABoundedNumberOfViolationsAndCountsAll) {
   const OccupancyGrid grid = support::ascii_map({"#........#"});
   const VerifyReport report =
       *verify(grid, {robot_at(0.5, 0.5)}, {leaps(30'000)}, kTolerance, StopCondition::never());
-  EXPECT_EQ(report.violations.size(), kMostViolations);
+  EXPECT_EQ(report.violations.size(), kMaxViolations);
   EXPECT_GE(report.violation_count, 30'000U) << "each leap is too fast";
   EXPECT_EQ(report.violations.front().t, 0.0);
 }

@@ -30,7 +30,7 @@ FleetClearance clearance_of(const RandomFleet& fleet, double tolerance) {
     legs.push_back(execute(fleet.robots[k], plan_of[k]));
     radii.push_back(fleet.robots[k].radius);
   }
-  return *fleet_clearance(legs, {radii, radii}, std::vector(radii.size(), tolerance), kMostCollisions,
+  return *fleet_clearance(legs, {radii, radii}, std::vector(radii.size(), tolerance), kMaxCollisions,
                           StopCondition::never());
 }
 

@@ -88,7 +88,7 @@ TEST(MovingObstacle, MayNotMeetARobotThatThePlanMoves) {
   scene.add(robot_at(5, 5), [](PlanBuilder& plan) { plan.wait(1); });
   scene.obstacle({at(0, 0, 5), at(10, 10, 5), at(20, 0, 5)});
   CheckRules rules;
-  rules.exempt.assign(kMostUnavoidableOfRobot, UnavoidableCollision{0, {}, 0, 4.0});
+  rules.exempt.assign(kMaxUnavoidableOfRobot, UnavoidableCollision{0, {}, 0, 4.0});
   EXPECT_EQ(scene.violations(rules).size(), 2U);
 }
 
@@ -99,7 +99,7 @@ TEST(MovingObstacle, MayMeetARobotThatHasTooManyCollisionsToListAgain) {
   for (int k = 0; k < 30; ++k) motion.push_back(at(10 * k, k % 2 == 0 ? 0 : 10, 5));
   scene.obstacle(motion);
   CheckRules rules;
-  for (std::size_t k = 0; k < kMostUnavoidableOfRobot; ++k) {
+  for (std::size_t k = 0; k < kMaxUnavoidableOfRobot; ++k) {
     EXPECT_FALSE(scene.violations(rules).empty());
     rules.exempt.push_back({0, {}, 0, 10.0 * static_cast<double>(k) + 4.0});
   }

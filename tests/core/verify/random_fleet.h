@@ -19,8 +19,8 @@ struct RandomFleet {
 };
 
 /// Robots of various sizes and speeds that drive, turn and wait at random between points of a square of
-/// `side` metres, in up to `most_actions` actions each. Some have no plan. They may collide.
-inline RandomFleet random_fleet(std::mt19937& random, std::size_t count, double side, int most_actions) {
+/// `side` metres, in up to `max_actions` actions each. Some have no plan. They may collide.
+inline RandomFleet random_fleet(std::mt19937& random, std::size_t count, double side, int max_actions) {
   const auto uniform = [&random](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
   };
@@ -32,7 +32,7 @@ inline RandomFleet random_fleet(std::mt19937& random, std::size_t count, double 
     robot.angular_speed = uniform(0.5, 4.0);
     robot.start = {Position(uniform(0, side), uniform(0, side)), uniform(-3, 3)};
     support::PlanBuilder builder(index, robot);
-    const int actions = std::uniform_int_distribution<int>(0, most_actions)(random);
+    const int actions = std::uniform_int_distribution<int>(0, max_actions)(random);
     for (int k = 0; k < actions; ++k) {
       switch (std::uniform_int_distribution<int>(0, 3)(random)) {
         case 0:

@@ -173,7 +173,7 @@ TEST(RobotCollision, AddsDifferentRadii) {
 TEST(RobotCollision, LimitsTheNumberOfReportedOverlaps) {
   Scene scene;
   for (int k = 0; k < 200; ++k) scene.stand(robot_at(5, 5));
-  EXPECT_EQ(scene.violations().size(), kMostCollisions);
+  EXPECT_EQ(scene.violations().size(), kMaxCollisions);
 }
 
 TEST(MinClearance, IsBetweenDisksWithoutInflationAndIncludesStandingRobots) {

@@ -103,12 +103,12 @@ std::int8_t by_thresholds_of_humble(const ShadeRule& rule, double occupied) {
 /// The same with Jazzy, in single precision, as map_server computes.
 std::int8_t by_thresholds(const ShadeRule& rule, float occupied) {
   const auto least_occupied = static_cast<float>(rule.occupied_thresh);
-  const auto most_free = static_cast<float>(rule.free_thresh);
-  if (occupied <= most_free) return 0;
+  const auto max_free = static_cast<float>(rule.free_thresh);
+  if (occupied <= max_free) return 0;
   if (occupied >= least_occupied) return kFullOccupancy;
   if (rule.mode == ShadeMode::trinary) return kUnknownOccupancy;
   const auto range = static_cast<float>(rule.occupied_thresh - rule.free_thresh);
-  const float percent = std::round((occupied - most_free) / range * 100.0F);
+  const float percent = std::round((occupied - max_free) / range * 100.0F);
   return static_cast<std::int8_t>(std::min(percent, static_cast<float>(kFullOccupancy)));
 }
 
@@ -290,7 +290,7 @@ std::string changed_pixels_warning(const std::string& image, std::size_t pixels)
          "one.";
 }
 
-std::optional<DecodedImage> decode_image(const JsonReader& image, std::int64_t most,
+std::optional<DecodedImage> decode_image(const JsonReader& image, std::int64_t max_pixels,
                                          const Meanings& meanings) {
   const auto rule = parse_rule(image);
   const JsonReader file = parse_file(image);
@@ -304,7 +304,7 @@ std::optional<DecodedImage> decode_image(const JsonReader& image, std::int64_t m
   const auto bytes = decode_base64(*file.string(), work);
   if (!bytes) return damaged("It " + bytes.failure() + ".");
   if (work.met()) return std::nullopt;
-  auto opened = is_png ? open_png(*bytes, most, work) : open_pgm(*bytes, most);
+  auto opened = is_png ? open_png(*bytes, max_pixels, work) : open_pgm(*bytes, max_pixels);
   if (!opened) {
     if (!opened.failure().too_large) return damaged(opened.failure().detail);
     file.fault(fault::kOutOfRange, "The image is too large. " + opened.failure().detail);

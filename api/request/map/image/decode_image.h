@@ -57,16 +57,16 @@ using OpenedImage = Result<std::unique_ptr<ImageReader>, ImageFault>;
 
 inline constexpr int kLongestSide = 1'000'000;  // pixels, as in libpng
 
-/// Returns the fault of an image of this size, if it has more than `most` pixels or is too long.
-std::optional<ImageFault> size_fault(std::uint64_t columns, std::uint64_t rows, std::int64_t most);
+/// Returns the fault of an image of this size, if it has more than `max_pixels` or is too long.
+std::optional<ImageFault> size_fault(std::uint64_t columns, std::uint64_t rows, std::int64_t max_pixels);
 
-/// Opens a portable graymap, plain (P2) or raw (P5), of at most `most` pixels.
-OpenedImage open_pgm(std::span<const std::uint8_t> bytes, std::int64_t most);
+/// Opens a portable graymap, plain (P2) or raw (P5), of at most `max_pixels`.
+OpenedImage open_pgm(std::span<const std::uint8_t> bytes, std::int64_t max_pixels);
 
-/// Opens a PNG of at most `most` pixels. Palettes, grays of fewer than 8 bits and transparent colours are
+/// Opens a PNG of at most `max_pixels`. Palettes, grays of fewer than 8 bits and transparent colours are
 /// expanded. Whatever is not needed for the pixels, or follows them, stays unread. `work` ends the reading,
 /// with any result.
-OpenedImage open_png(std::span<const std::uint8_t> bytes, std::int64_t most, core::Work& work);
+OpenedImage open_png(std::span<const std::uint8_t> bytes, std::int64_t max_pixels, core::Work& work);
 
 inline constexpr std::int8_t kUnknownOccupancy = -1;
 
@@ -142,9 +142,9 @@ struct DecodedImage {
 
 /// Returns the occupancy that map_server of ROS publishes for an image: `pgm` or `png`, in base64, the
 /// members of its map.yaml that give shades a meaning (see ShadeRule), and `release`. The image has at most
-/// `most` pixels, which is checked before they are decoded. Returns none when it has a fault, or when the
+/// `max_pixels`, which is checked before they are decoded. Returns none when it has a fault, or when the
 /// reading of the document is stopped. Does not look at other members.
-std::optional<DecodedImage> decode_image(const JsonReader& image, std::int64_t most,
+std::optional<DecodedImage> decode_image(const JsonReader& image, std::int64_t max_pixels,
                                          const Meanings& meanings);
 
 /// Returns a warning about pixels that mean something else with Humble. `image` names it.

@@ -8,16 +8,16 @@
 
 namespace fleetplan::api {
 
-std::optional<ImageFault> size_fault(std::uint64_t columns, std::uint64_t rows, std::int64_t most) {
+std::optional<ImageFault> size_fault(std::uint64_t columns, std::uint64_t rows, std::int64_t max_pixels) {
   const std::string size = std::to_string(columns) + " x " + std::to_string(rows);
   if (columns > kLongestSide || rows > kLongestSide) {
     return ImageFault{"Its " + size + " pixels are too many; it must be at most " +
                           std::to_string(kLongestSide) + " pixels wide and high.",
                       true};
   }
-  if (columns * rows <= static_cast<std::uint64_t>(most)) return std::nullopt;
+  if (columns * rows <= static_cast<std::uint64_t>(max_pixels)) return std::nullopt;
   return ImageFault{"It has " + size + " = " + std::to_string(columns * rows) +
-                        " pixels; this service accepts at most " + std::to_string(most) +
+                        " pixels; this service accepts at most " + std::to_string(max_pixels) +
                         ". Use a coarser resolution or a part of the map.",
                     true};
 }
@@ -149,8 +149,8 @@ std::string kind_fault(std::span<const std::uint8_t> bytes) {
          ", not a graymap: convert it to PGM (P5).";
 }
 
-std::string header_fault(const char* what, int most) {
-  return std::string("Its header has no ") + what + " from 1 to " + std::to_string(most) +
+std::string header_fault(const char* what, int max) {
+  return std::string("Its header has no ") + what + " from 1 to " + std::to_string(max) +
          "; is it truncated or damaged?";
 }
 
@@ -164,7 +164,7 @@ std::size_t raw_begin(std::span<const std::uint8_t> bytes, std::size_t header_en
 
 }  // namespace
 
-OpenedImage open_pgm(std::span<const std::uint8_t> bytes, std::int64_t most) {
+OpenedImage open_pgm(std::span<const std::uint8_t> bytes, std::int64_t max_pixels) {
   if (bytes.size() < 2 || bytes[0] != 'P' || (bytes[1] != '2' && bytes[1] != '5')) {
     return ImageFault{kind_fault(bytes)};
   }
@@ -176,7 +176,7 @@ OpenedImage open_pgm(std::span<const std::uint8_t> bytes, std::int64_t most) {
   const auto largest = numbers.next();
   if (largest.value_or(0) == 0 || *largest > kLargestGray)
     return ImageFault{header_fault("largest gray", kLargestGray)};
-  if (auto fault = size_fault(*columns, *rows, most)) return *fault;
+  if (auto fault = size_fault(*columns, *rows, max_pixels)) return *fault;
 
   const ImageHeader header{static_cast<int>(*columns), static_cast<int>(*rows), 1,
                            static_cast<int>(*largest)};

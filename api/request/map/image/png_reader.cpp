@@ -26,13 +26,13 @@ namespace {
 constexpr std::array<std::uint8_t, 8> kSignature{137, 80, 78, 71, 13, 10, 26, 10};
 constexpr std::array<std::uint8_t, 4> kHeaderName{'I', 'H', 'D', 'R'};
 constexpr std::size_t kFirstNameAt = kSignature.size() + 4;  // after the first chunk's length
-constexpr png_alloc_size_t kMostChunk = 1U << 20U;           // bytes of a chunk other than pixels
+constexpr png_alloc_size_t kMaxChunk = 1U << 20U;            // bytes of a chunk other than pixels
 constexpr png_uint_32 kNoKeptChunks = 1;                     // in libpng 0 stands for no limit
 /// The bytes of compressed pixels that are read at once. They decompress to a megabyte at most.
 constexpr std::size_t kReadAtOnce = 1024;
 /// The most bytes that are read behind the last pixel: the end of the compressed data and the check sums, in
 /// a second chunk perhaps. Whatever else follows stays unread.
-constexpr std::size_t kMostBehindPixels = 64;
+constexpr std::size_t kMaxBehindPixels = 64;
 
 /// What the library and this reader tell each other.
 struct Source {
@@ -66,7 +66,7 @@ void on_read(png_structp png, png_bytep target, std::size_t size) {
   if (source->work->met_after(size)) png_error(png, "the reading was stopped");
   if (has_all_pixels(png, *source)) {
     source->behind_pixels += size;
-    if (source->behind_pixels > kMostBehindPixels) png_error(png, "data behind the pixels");
+    if (source->behind_pixels > kMaxBehindPixels) png_error(png, "data behind the pixels");
   }
   if (source->bytes.size() - source->at < size) png_error(png, "the file ends too early");
   std::memcpy(target, source->bytes.data() + source->at, size);
@@ -123,7 +123,7 @@ class Handle {
     }
     png_set_read_fn(png_, &source_, on_read);
     png_set_user_limits(png_, kLongestSide, kLongestSide);
-    png_set_chunk_malloc_max(png_, kMostChunk);
+    png_set_chunk_malloc_max(png_, kMaxChunk);
     png_set_chunk_cache_max(png_, kNoKeptChunks);
   }
   Handle(const Handle&) = delete;
@@ -143,7 +143,7 @@ class Handle {
   /// Reads a row. Returns false if its pixels cannot be read. Data that end the reading behind the last row
   /// are no fault.
   bool read_row(std::uint8_t* row) {
-    return try_to_read_row(png_, row) || source_.behind_pixels > kMostBehindPixels;
+    return try_to_read_row(png_, row) || source_.behind_pixels > kMaxBehindPixels;
   }
   /// Returns why a call failed. Throws std::bad_alloc if it was memory.
   std::string error() const {
@@ -223,12 +223,12 @@ std::optional<ImageFault> beginning_fault(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
-OpenedImage open_png(std::span<const std::uint8_t> bytes, std::int64_t most, core::Work& work) {
+OpenedImage open_png(std::span<const std::uint8_t> bytes, std::int64_t max_pixels, core::Work& work) {
   if (auto fault = beginning_fault(bytes)) return *fault;
   auto handle = std::make_unique<Handle>(bytes, work);
   const bool has_header = handle->read_header();
   // The library knows the size also if it rejects it.
-  if (auto fault = size_fault(handle->columns(), handle->rows(), most)) return *fault;
+  if (auto fault = size_fault(handle->columns(), handle->rows(), max_pixels)) return *fault;
   if (!has_header || !handle->begin_rows()) return ImageFault{handle->error()};
   const ImageHeader header{static_cast<int>(handle->columns()), static_cast<int>(handle->rows()),
                            png_get_channels(handle->png(), handle->info()), 65535};

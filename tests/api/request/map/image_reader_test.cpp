@@ -14,7 +14,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr std::int64_t kMost = 1000;
+constexpr std::int64_t kMax = 1000;
 
 /// The channels of all pixels of an image, or why it cannot be read.
 struct Read {
@@ -42,11 +42,11 @@ std::span<const std::uint8_t> bytes_of(const std::string& text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
-Read read_pgm(const std::string& text) { return read_all(open_pgm(bytes_of(text), kMost)); }
+Read read_pgm(const std::string& text) { return read_all(open_pgm(bytes_of(text), kMax)); }
 
 Read read_png(const std::string& text) {
   core::Work stop = core::Work::unbounded();
-  return read_all(open_png(bytes_of(text), kMost, stop));
+  return read_all(open_png(bytes_of(text), kMax, stop));
 }
 
 TEST(Pgm, PlainHasAnyWhiteSpaceAndComments) {

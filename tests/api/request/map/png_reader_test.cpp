@@ -28,7 +28,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Lt;
 
-constexpr std::int64_t kMost = 1'000'000;
+constexpr std::int64_t kMax = 1'000'000;
 
 struct Read {
   std::vector<std::uint16_t> channels;
@@ -37,8 +37,7 @@ struct Read {
 };
 
 Read read_png(const std::string& file, core::Work& work = unbounded_work()) {
-  const auto opened =
-      open_png({reinterpret_cast<const std::uint8_t*>(file.data()), file.size()}, kMost, work);
+  const auto opened = open_png({reinterpret_cast<const std::uint8_t*>(file.data()), file.size()}, kMax, work);
   if (!opened) return {{}, opened.failure().detail, opened.failure().too_large};
   Read read;
   for (int row = 0; row < (*opened)->header().rows; ++row) {
