@@ -1,5 +1,5 @@
 # Debian packages: `cpack -G DEB` in the folder of a build writes fleetplan, the server with its page, a unit of
-# systemd, a manual page and examples, and libfleetplan-dev, the library with its headers. Prepare the build with
+# systemd, a manual page and examples, and libfleetplan-dev, the libraries with their headers. Prepare the build with
 # CMAKE_INSTALL_PREFIX=/usr; docs/operations.md has the commands.
 #
 # The components are `runtime`, which is also what an image consists of, `system` and `development`.
@@ -59,9 +59,11 @@ string(CONCAT CPACK_DEBIAN_SERVER_DESCRIPTION
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libfleetplan-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libstdc++-12-dev | libstdc++-13-dev | libstdc++-14-dev")
+set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS libpng-dev)  # for fleetplan::service only
 string(CONCAT CPACK_DEBIAN_DEV_DESCRIPTION
-    "Headers, static library and CMake package for programs that plan timed motions for\n"
-    "fleets of differential-drive robots: find_package(fleetplan).")
+    "Headers, static libraries and CMake package for programs that plan timed motions for\n"
+    "fleets of differential-drive robots, or answer what the service answers:\n"
+    "find_package(fleetplan).")
 
 include(CPack)
 cpack_add_component_group(server)

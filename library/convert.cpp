@@ -328,6 +328,12 @@ Verification verification_of(core::VerifyReport report) {
   return made;
 }
 
+Progress progress_of(const core::Progress& progress) {
+  Progress made{progress.attempts, progress.planned, std::nullopt};
+  if (progress.best) made.best = Objectives{progress.best->flowtime, progress.best->makespan};
+  return made;
+}
+
 }  // namespace fleetplan::library
 
 namespace fleetplan {

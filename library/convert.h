@@ -7,6 +7,7 @@
 #include <fleetplan/map.h>
 #include <fleetplan/options.h>
 #include <fleetplan/plan.h>
+#include <fleetplan/planner.h>
 #include <fleetplan/problem.h>
 #include <fleetplan/verify.h>
 
@@ -19,6 +20,7 @@
 #include "core/model/plan.h"
 #include "core/model/plan_options.h"
 #include "core/model/problem.h"
+#include "core/model/progress.h"
 #include "core/model/robot.h"
 #include "core/model/surroundings.h"
 #include "core/plan/make_plan.h"
@@ -61,6 +63,7 @@ std::vector<core::UnavoidableCollision> unavoidable_of(const std::vector<Unavoid
 /// by robot; empty if no goal has several.
 Plan plan_of(const core::Plan& plan, const Problem& problem, const core::OpenGoals& open);
 Verification verification_of(core::VerifyReport report);
+Progress progress_of(const core::Progress& progress);
 
 /// What is read from a problem; faults of its numbers and lists are added to `faults`.
 struct ReadFleet {

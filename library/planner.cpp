@@ -33,11 +33,7 @@ class Reporter : public core::PlanObserver {
  public:
   explicit Reporter(const std::function<void(const Progress&)>& progress) : progress_(progress) {}
 
-  void progressed(const core::Progress& progress) override {
-    Progress told{progress.attempts, progress.planned, std::nullopt};
-    if (progress.best) told.best = Objectives{progress.best->flowtime, progress.best->makespan};
-    progress_(told);
-  }
+  void progressed(const core::Progress& progress) override { progress_(library::progress_of(progress)); }
   bool wants_plan() override { return false; }
   void show(const core::CheckedPlan& /*plan*/) override {}
 

@@ -48,6 +48,7 @@ ProgressReporter::ProgressReporter(PlanEvents& events, std::size_t robots, Clock
 void ProgressReporter::progressed(const core::Progress& progress) { events_.progress({robots_, progress}); }
 
 bool ProgressReporter::wants_plan() {
+  if (!events_.wants_incumbents()) return false;
   const auto now = Clock::now();
   return !rejection_ && now >= next_ && now < deadline_ - kQuietEnd;
 }

@@ -48,6 +48,9 @@ class PlanEvents {
   /// Called often, with the newest state, which replaces the earlier ones.
   virtual void progress(const PlanProgress& progress) = 0;
 
+  /// Whether incumbents are received at all: otherwise, no answers are written for them.
+  virtual bool wants_incumbents() const { return true; }
+
   /// Called when a better plan was found, with a whole answer as JSON. Its plan has passed the check.
   virtual void incumbent(std::string answer) = 0;
 };

@@ -311,4 +311,9 @@ std::span<const ErrorRow> error_table() { return kTable; }
 
 const ErrorRow& row_of(ErrorCode code) { return kTable[static_cast<std::size_t>(code)]; }
 
+std::string too_large_body_detail(std::string_view size, std::uint64_t limit) {
+  return "The body has " + std::string(size) + " bytes; the limit is " + std::to_string(limit) + "." +
+         kLargeMapRemedy;
+}
+
 }  // namespace fleetplan::api

@@ -5,6 +5,7 @@
 // failure.
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -175,6 +176,9 @@ enum class ErrorCode {
 /// Ends the detail of a body that is too large: nearly always its map.
 inline constexpr const char* kLargeMapRemedy =
     " A large map is smallest as a PNG, in map.image.png; see GET /v1/limits.";
+
+/// Returns the detail of the 413 for a body of `size` bytes, a number or "at least" one.
+std::string too_large_body_detail(std::string_view size, std::uint64_t limit);
 
 inline constexpr const char* kDrainingDetail = "The service is shutting down: try another replica.";
 

@@ -2,7 +2,7 @@
 
 /// Fleetplan as a library: collision-free, timed motions for fleets of differential-drive robots.
 ///
-/// This header includes all others. Read them in this order:
+/// This header includes all others but service.h, which is of a library of its own. Read them in this order:
 ///
 /// 1. pose.h, map.h, robot.h: where robots can be, what they are, and where they shall go.
 /// 2. action.h: what robots execute.

@@ -121,8 +121,7 @@ Steps::Answer Steps::content(const Exchange& exchange) const {
   const std::uint64_t limit = settings_.limits.max_body;
   if (head.content_length && *head.content_length > limit) {
     return refusal(exchange, ErrorCode::body_too_large,
-                   "The body has " + std::to_string(*head.content_length) + " bytes; the limit is " +
-                       std::to_string(limit) + "." + std::string(api::kLargeMapRemedy));
+                   api::too_large_body_detail(std::to_string(*head.content_length), limit));
   }
   return std::nullopt;
 }

@@ -111,6 +111,18 @@ TEST(SourceRules, AllowPublicHeadersOnlyEachOtherAndTheStandardLibrary) {
               ElementsAre(HasSubstr("api/json/error.h")));
 }
 
+TEST(SourceRules, AllowTheServiceInOneFolderOfTheLibraryOnly) {
+  const std::string endpoints = "#include \"api/endpoints/endpoints.h\"\n";
+  EXPECT_THAT(violations("library/service/a.cpp", endpoints + "#include \"library/convert.h\"\n"), IsEmpty());
+  EXPECT_THAT(violations("library/service/a.cpp", "#include \"server/routes.h\"\n"),
+              ElementsAre(HasSubstr("server/routes.h")));
+  EXPECT_THAT(violations("library/a.cpp", endpoints), ElementsAre(HasSubstr("api/endpoints/endpoints.h")));
+  EXPECT_THAT(violations("library/a.cpp", "#include \"library/service/a.h\"\n"),
+              ElementsAre(HasSubstr("library/service/a.h")));
+  EXPECT_THAT(violations("api/a.cpp", "#include \"library/service/a.h\"\n"),
+              ElementsAre(HasSubstr("library/service/a.h")));
+}
+
 TEST(SourceRules, AllowApiToIncludeCoreButNotTheServer) {
   EXPECT_THAT(violations("api/a.cpp", "#include \"core/plan/planner.h\"\n#include <nlohmann/json.hpp>\n"),
               IsEmpty());

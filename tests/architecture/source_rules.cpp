@@ -52,6 +52,14 @@ const std::vector<Layer>& layers() {
        true},
       // The public headers are all that users have.
       {"include/fleetplan/", {}, {"fleetplan/"}, false, {"getenv", "cout", "thread_local"}},
+      // Only this folder of the library knows the service.
+      {"library/service/",
+       {"library/", "api/", "core/"},
+       {"fleetplan/"},
+       false,
+       {"getenv", "cout", "cerr", "clog", "printf", "std::exit", "std::abort", "system_clock",
+        "thread_local"},
+       true},
       {"library/",
        {"library/", "core/"},
        {"fleetplan/"},
@@ -90,6 +98,8 @@ const std::vector<FolderRule>& folder_rules() {
       {"api/json/", {"api/request/", "api/response/", "api/endpoints/"}, {}},
       {"api/request/", {"api/response/", "api/endpoints/"}, {}},
       {"api/response/", {"api/endpoints/"}, {}},
+      // Programs that only plan are linked without the service.
+      {"library/", {"library/service/"}, "library/service/"},
       // The door is for callers of core; the rest of core does not include it.
       {"core/", {"core/plan/"}, "core/plan/"},
       // Folders for the planning of one robot do not depend on the planning of all robots.

@@ -145,8 +145,7 @@ api::ErrorCode code_of(BodyFault::Kind kind) {
 BodyFault malformed_body(std::string detail) { return {BodyFault::Kind::malformed, std::move(detail)}; }
 
 BodyFault too_large_body(const std::string& size, std::uint64_t limit) {
-  return {BodyFault::Kind::too_large, std::string("The body has ") + size + " bytes; the limit is " +
-                                          std::to_string(limit) + "." + std::string(api::kLargeMapRemedy)};
+  return {BodyFault::Kind::too_large, api::too_large_body_detail(size, limit)};
 }
 
 BodyReader::BodyReader(const RequestHead& head, std::uint64_t limit, BodyMemory::Share* share)
