@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <stdexcept>
 #include <string>
 
@@ -24,9 +25,9 @@ constexpr const char* kRequest = R"({
     {"id": "amr-2", "start": {"x": 8.5, "y": 0.5, "theta": 3.14159265}, "goal": {"x": 0.5, "y": 0.5}}],
   "options": {"time_budget_ms": 2000}})";
 
-constexpr double kPeriod = 2.0;      // from plan to plan
-constexpr double kNewOrderAt = 6.0;  // then amr-1 gets a goal at the other end
-constexpr const char* kNewOrder = R"("goals": [{"robot": "amr-1", "goals": [{"x": 4.5, "y": 0.5}]}])";
+constexpr double kPeriod = 2.0;       // from plan to plan
+constexpr double kNewOrderAt = 10.0;  // then amr-1 is sent back, into the passing bay
+constexpr const char* kNewOrder = R"("goals": [{"robot": "amr-1", "goals": [{"x": 4.5, "y": 1.5}]}])";
 
 /// Returns the end of the string, list, object, number or word of an answer that begins at `at`.
 std::size_t end_of_value(const std::string& json, std::size_t at) {

@@ -116,6 +116,16 @@ TEST(PlanEvents, HaveNoIncumbentWhenTheFirstSolutionIsTheAnswer) {
   EXPECT_TRUE(events.incumbents.empty());
 }
 
+TEST(PlanEvents, HaveNoIncumbentForReceiversThatWantNone) {
+  class OnlyProgress final : public Events {
+    bool wants_incumbents() const override { return false; }
+  };
+  OnlyProgress events;
+  EXPECT_EQ(plan_endpoint(anytime_request().dump(), context_with(events)).status, 200);
+  EXPECT_FALSE(events.received.empty());
+  EXPECT_TRUE(events.incumbents.empty());
+}
+
 TEST(PlanEvents, BeginEvenWhenTheBudgetIsSpent) {
   Events events;
   RequestContext late = context_with(events);
