@@ -51,12 +51,12 @@ EndpointFunction function_of(Endpoint endpoint) {
 api::Limits limits_of(const ServiceLimits& limits) {
   // As the settings of the service.
   constexpr std::chrono::hours kLongestBudget{24};
-  constexpr std::int64_t kMostCells = 1'000'000'000;
+  constexpr std::int64_t kMaxCells = 1'000'000'000;
   if (limits.default_budget < std::chrono::milliseconds(1) || limits.default_budget > limits.max_budget ||
       limits.max_budget > kLongestBudget) {
     throw std::invalid_argument("the budgets are not 1 ms <= default_budget <= max_budget <= 1 day");
   }
-  if (limits.max_cells < 1 || limits.max_cells > kMostCells) {
+  if (limits.max_cells < 1 || limits.max_cells > kMaxCells) {
     throw std::invalid_argument("max_cells is not from 1 to 1e9");
   }
   return {.max_body = limits.max_body,
