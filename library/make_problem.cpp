@@ -43,7 +43,7 @@ constexpr Range kAngularSpeed{kLeastAngularSpeed, kMaxAngularSpeed, " rad/s"};
 constexpr Range kAcceleration{kLeastAcceleration, kMaxAcceleration, " per second squared"};
 constexpr Range kProfileSpeed{0.0, kMaxAngularSpeed, ""};
 constexpr Range kDuration{0.0, kLongestTime, " s"};
-constexpr Range kGoalTolerance{0.0, core::kMaxTolerance, " m"};
+constexpr Range kGoalTolerance{0.0, core::kMaxGoalTolerance, " m"};
 constexpr Range kAngle{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max(), " rad"};
 
 /// Returns the shortest text of a number.

@@ -34,55 +34,55 @@ PlanState::PlanState(const Instance& instance)
       memory_(instance, reservations_.table()),
       ways_(reservations_, memory_) {}
 
-SearchResult PlanState::plan(std::size_t robot, const SearchLimits& limits, const StopCondition& stop) {
+SearchResult PlanState::plan(std::size_t robot, const SearchSettings& settings, const StopCondition& stop) {
   EnclosureTest test(ways_, robot, stop);
-  SearchLimits with_test = limits;
+  SearchSettings with_test = settings;
   // With a horizon, a robot that is closed off may come nearer to its goal all the same.
   if (reservations_.any_stays() && !instance_.options().horizon) with_test.no_path_test = &test;
   return search(robot, with_test, stop);
 }
 
 SearchResult PlanState::plan_ignoring(std::size_t robot, const std::vector<std::size_t>& ignored,
-                                      const SearchLimits& limits, const StopCondition& stop) {
+                                      const SearchSettings& settings, const StopCondition& stop) {
   ways_.forget_if_closed_by(ignored, robot);
   const IgnoredRobots without(reservations_, ignored);
-  return plan(robot, limits, stop);
+  return plan(robot, settings, stop);
 }
 
-SearchResult PlanState::plan_to(std::size_t robot, std::vector<Goal> goals, const SearchLimits& limits,
+SearchResult PlanState::plan_to(std::size_t robot, std::vector<Goal> goals, const SearchSettings& settings,
                                 const StopCondition& stop) {
   SearchResult result = memory_.within_memory(SearchResult{std::nullopt, false, 0}, [&]() -> SearchResult {
     Itinerary itinerary = instance_.itinerary(robot);
     itinerary.goals = std::move(goals);
     SearchSpace space(instance_, robot, std::move(itinerary), stop);
     if (!space.finished()) return {std::nullopt, false, 0};
-    SearchLimits within = limits;
-    within.bound = std::min(limits.bound, instance_.views(robot).longest_plan());
+    SearchSettings within = settings;
+    within.bound = std::min(settings.bound, instance_.views(robot).longest_plan());
     return memory_.search().run(space, within, stop);
   });
   expansions_ += result.expansions;
   return result;
 }
 
-SearchResult PlanState::replan(std::size_t robot, const SearchLimits& limits, const StopCondition& stop) {
+SearchResult PlanState::replan(std::size_t robot, const SearchSettings& settings, const StopCondition& stop) {
   Trajectory now = *reservations_.trajectory(robot);
   reservations_.remove(robot);
-  SearchResult result = plan(robot, limits, stop);
+  SearchResult result = plan(robot, settings, stop);
   reservations_.follow(robot, result.trajectory ? *result.trajectory : std::move(now));
   return result;
 }
 
-SearchResult PlanState::search(std::size_t robot, const SearchLimits& limits, const StopCondition& stop) {
+SearchResult PlanState::search(std::size_t robot, const SearchSettings& settings, const StopCondition& stop) {
   if (robot == whole_way_of_) {
-    SearchResult whole = search_whole_way(robot, limits, stop);
+    SearchResult whole = search_whole_way(robot, settings, stop);
     if (whole.trajectory) return whole;
     whole_way_of_.reset();
   }
-  return search_until(instance_.options().horizon.value_or(kForever), robot, limits, stop);
+  return search_until(instance_.options().horizon.value_or(kForever), robot, settings, stop);
 }
 
 /// Searches up to the horizon, seconds (kForever: to the goal); twice if the first time lacks memory.
-SearchResult PlanState::search_until(double horizon, std::size_t robot, const SearchLimits& limits,
+SearchResult PlanState::search_until(double horizon, std::size_t robot, const SearchSettings& settings,
                                      const StopCondition& stop) {
   if (horizon == kForever && !goal_stays_free(robot)) return {};
   constexpr auto no_memory = [] { return SearchResult{std::nullopt, false, 0}; };
@@ -93,8 +93,8 @@ SearchResult PlanState::search_until(double horizon, std::size_t robot, const Se
     if (way.none()) return {};
     SearchSpace* space = memory_.space_of(robot, stop);
     if (space == nullptr) return no_memory();
-    SearchLimits within = limits;
-    within.bound = std::min(limits.bound, instance_.views(robot).longest_plan());
+    SearchSettings within = settings;
+    within.bound = std::min(settings.bound, instance_.views(robot).longest_plan());
     within.horizon = horizon;
     return memory_.search().run(*space, within, stop);
   };
@@ -119,7 +119,7 @@ bool PlanState::goal_stays_free(std::size_t robot) const {
 
 /// Robots with nothing to do may make way for others, but may also be unable to: whoever waits before one
 /// would wait for ever, although there is another way. So they stay in their places during this search.
-SearchResult PlanState::search_whole_way(std::size_t robot, const SearchLimits& limits,
+SearchResult PlanState::search_whole_way(std::size_t robot, const SearchSettings& settings,
                                          const StopCondition& stop) {
   const std::vector<std::size_t> arrived = arrived_without_plan(robot);
   std::vector<double> held_for;
@@ -128,12 +128,12 @@ SearchResult PlanState::search_whole_way(std::size_t robot, const SearchLimits& 
     reservations_.stay_in_place(other);
   }
   EnclosureTest test(ways_, robot, stop);
-  SearchLimits with_test = limits;
+  SearchSettings with_test = settings;
   with_test.no_path_test = &test;
-  with_test.bound = std::min(limits.bound, instance_.itinerary(robot).previous_end + kNoLater);
+  with_test.bound = std::min(settings.bound, instance_.itinerary(robot).previous_end + kNoLater);
   SearchResult result = search_until(kForever, robot, with_test, stop);
-  if (!result.trajectory && with_test.bound < limits.bound) {
-    with_test.bound = limits.bound;
+  if (!result.trajectory && with_test.bound < settings.bound) {
+    with_test.bound = settings.bound;
     result = search_until(kForever, robot, with_test, stop);
   }
   for (std::size_t k = 0; k < arrived.size(); ++k) reservations_.reserve_place(arrived[k], held_for[k]);

@@ -31,19 +31,19 @@ class PlanState {
   const StaticWays& ways() const { return ways_; }
 
   /// Plans a robot that has a goal and no reservation. Afterwards all reservations are as they were.
-  SearchResult plan(std::size_t robot, const SearchLimits& limits, const StopCondition& stop);
+  SearchResult plan(std::size_t robot, const SearchSettings& settings, const StopCondition& stop);
   /// Plans a robot as plan() does, without the reservations of the robots of `ignored`.
   SearchResult plan_ignoring(std::size_t robot, const std::vector<std::size_t>& ignored,
-                             const SearchLimits& limits, const StopCondition& stop);
+                             const SearchSettings& settings, const StopCondition& stop);
   /// Plans a robot as plan() does, but does not ask during the search whether robots that stay close it off:
   /// for callers that change what searches meet of the others.
-  SearchResult search(std::size_t robot, const SearchLimits& limits, const StopCondition& stop);
+  SearchResult search(std::size_t robot, const SearchSettings& settings, const StopCondition& stop);
   /// Plans a robot as plan() does, to these goals instead of its own. It has one load.
-  SearchResult plan_to(std::size_t robot, std::vector<Goal> goals, const SearchLimits& limits,
+  SearchResult plan_to(std::size_t robot, std::vector<Goal> goals, const SearchSettings& settings,
                        const StopCondition& stop);
   /// Plans a robot that follows a trajectory as plan() does, among the other ones. If that finds a
   /// trajectory, the robot follows it instead.
-  SearchResult replan(std::size_t robot, const SearchLimits& limits, const StopCondition& stop);
+  SearchResult replan(std::size_t robot, const SearchSettings& settings, const StopCondition& stop);
   /// The trajectory of the robot alone on the map; it stays in its place if there is none.
   Trajectory plan_alone(std::size_t robot, const StopCondition& stop);
 
@@ -62,9 +62,9 @@ class PlanState {
   std::int64_t expansions() const { return expansions_; }
 
  private:
-  SearchResult search_until(double horizon, std::size_t robot, const SearchLimits& limits,
+  SearchResult search_until(double horizon, std::size_t robot, const SearchSettings& settings,
                             const StopCondition& stop);
-  SearchResult search_whole_way(std::size_t robot, const SearchLimits& limits, const StopCondition& stop);
+  SearchResult search_whole_way(std::size_t robot, const SearchSettings& settings, const StopCondition& stop);
   std::vector<std::size_t> arrived_without_plan(std::size_t except) const;
   bool goal_stays_free(std::size_t robot) const;
 

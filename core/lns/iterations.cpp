@@ -100,7 +100,7 @@ namespace {
 constexpr std::array<std::size_t, 5> kSizes{1, 2, 4, 8, 16};
 /// Weighted searches with few expansions find most of what can be found, and fail soon; the others are for
 /// what is left.
-constexpr std::array<SearchLimits, 3> kLimits{{
+constexpr std::array<SearchSettings, 3> kLimits{{
     {.heuristic_weight = 1.5, .thorough = false, .max_expansions = 400},
     {.heuristic_weight = 1.5, .thorough = false, .max_expansions = 8'000},
     {.heuristic_weight = 1.0,
@@ -115,15 +115,15 @@ constexpr std::array<SearchLimits, 3> kLimits{{
 
 AdaptiveParameters::Choice AdaptiveParameters::Choice::smoothing() {
   Choice choice;
-  choice.limits = kLimits.size();
+  choice.settings = kLimits.size();
   return choice;
 }
 
-std::size_t AdaptiveParameters::Choice::robots() const { return search_limits() ? kSizes[size] : 1; }
+std::size_t AdaptiveParameters::Choice::robots() const { return search_settings() ? kSizes[size] : 1; }
 
-std::optional<SearchLimits> AdaptiveParameters::Choice::search_limits() const {
-  if (limits == kLimits.size()) return std::nullopt;
-  return kLimits[limits];
+std::optional<SearchSettings> AdaptiveParameters::Choice::search_settings() const {
+  if (settings == kLimits.size()) return std::nullopt;
+  return kLimits[settings];
 }
 
 AdaptiveParameters::AdaptiveParameters()
@@ -133,13 +133,13 @@ AdaptiveParameters::Choice AdaptiveParameters::choose(Random& random, bool may_s
   Choice choice;
   choice.kind = kinds_.choose(random);
   choice.size = sizes_.choose(random);
-  choice.limits = limits_.choose(random, kLimits.size() + (may_smooth ? 1 : 0));
+  choice.settings = limits_.choose(random, kLimits.size() + (may_smooth ? 1 : 0));
   return choice;
 }
 
 void AdaptiveParameters::learn(const Choice& choice, double gain, double effort) {
-  limits_.learn(choice.limits, gain, effort);
-  if (!choice.search_limits()) return;  // the others had no effect
+  limits_.learn(choice.settings, gain, effort);
+  if (!choice.search_settings()) return;  // the others had no effect
   kinds_.learn(choice.kind, gain, effort);
   sizes_.learn(choice.size, gain, effort);
 }
@@ -150,7 +150,7 @@ namespace {
 constexpr double kLeastDelay = 1e-9;
 /// The limits of a search that finds the cheapest path that the searches can find, but for what dominance
 /// and estimates lose.
-constexpr SearchLimits kProof{
+constexpr SearchSettings kProof{
     .heuristic_weight = 1.0, .suboptimality = 0.0, .suboptimality_growth = 0.0, .dominance_slack = 0.0};
 /// The tries to smooth the path that such a search finds, and the path that the robot has; and seconds: what
 /// they gain, if anything.
@@ -200,8 +200,8 @@ std::optional<Exhaustion::Test> Exhaustion::next_test(std::int64_t effort) {
     test.moves = moves_;
     test.bound = incumbent_.cost_with_share(robot, incumbent_.share(robot) - kLeastDelay);
     // Without a bound: the search discards by estimates, which may be too high.
-    test.limits = kProof;
-    test.limits.max_expansions = max_expansions;
+    test.settings = kProof;
+    test.settings.max_expansions = max_expansions;
     test.seed = ++tests_;
     return test;
   }
@@ -209,7 +209,7 @@ std::optional<Exhaustion::Test> Exhaustion::next_test(std::int64_t effort) {
 }
 
 void Exhaustion::run(Test& test, PlanState& state, const StopCondition& stop) const {
-  SearchResult result = state.plan_ignoring(test.robot, incumbent_.planned(), test.limits, stop);
+  SearchResult result = state.plan_ignoring(test.robot, incumbent_.planned(), test.settings, stop);
   if (result.trajectory && incumbent_.may_smooth()) {
     const IgnoredRobots absent(state.reservations(), incumbent_.planned());
     Random random(test.seed);
@@ -293,8 +293,8 @@ Iteration Iterations::choose() {
   const std::optional<std::size_t> smoothed = turns_.next(may_gain);
   iteration.parameters = smoothed ? AdaptiveParameters::Choice::smoothing()
                                   : parameters_.choose(random_, is_late_ && incumbent_.may_smooth());
-  iteration.options.limits = iteration.parameters.search_limits();
-  const bool searches = iteration.options.limits.has_value();
+  iteration.options.settings = iteration.parameters.search_settings();
+  const bool searches = iteration.options.settings.has_value();
   if (!is_late_) iteration.options.tries = kFewTries;
   if (searches && random_.below(kIterationsPerAnyGain) != 0) iteration.options.min_gain_share = kMinGainShare;
   iteration.seed = random_.seed();
@@ -348,7 +348,7 @@ void Iterations::run(Iteration& iteration, Workspace& workspace) const {
 
 bool Iterations::accept(Iteration& iteration, Workspace& workspace) {
   const bool is_best = adopt(iteration, workspace);
-  if (!iteration.options.limits) {
+  if (!iteration.options.settings) {
     turns_.learn(is_best);
     return is_best;
   }
@@ -370,7 +370,7 @@ bool Iterations::adopt(Iteration& iteration, Workspace& workspace) {
   learn(iteration);
   if (!adopted) return false;
   for (Change::Part& part : change->parts) {
-    if (iteration.options.limits) smoothed_robots_.forget(part.robot);
+    if (iteration.options.settings) smoothed_robots_.forget(part.robot);
     best_.replace(part.robot, std::move(part.trajectory));
   }
   return best_.changed(change->gain);
@@ -394,7 +394,7 @@ void Iterations::learn(const Iteration& iteration) {
   const NeighbourhoodResult& result = iteration.result;
   const double gain = result.change ? std::max(0.0, result.change->gain) : 0.0;
   parameters_.learn(iteration.parameters, gain, result.effort);
-  DelayedChoice& robots = iteration.options.limits ? first_robots_ : smoothed_robots_;
+  DelayedChoice& robots = iteration.options.settings ? first_robots_ : smoothed_robots_;
   robots.learn(iteration.first, result.change.has_value());
 }
 

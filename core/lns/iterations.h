@@ -74,7 +74,7 @@ class AdaptiveParameters {
   struct Choice {
     std::size_t kind = 0;
     std::size_t size = 0;
-    std::size_t limits = 0;
+    std::size_t settings = 0;
 
     /// One robot is smoothed only.
     static Choice smoothing();
@@ -82,7 +82,7 @@ class AdaptiveParameters {
     Neighbourhood neighbourhood() const { return static_cast<Neighbourhood>(kind); }
     std::size_t robots() const;
     /// Of the searches; none if a robot is smoothed only.
-    std::optional<SearchLimits> search_limits() const;
+    std::optional<SearchSettings> search_settings() const;
   };
 
   AdaptiveParameters();
@@ -109,7 +109,7 @@ class Exhaustion {
     std::int64_t version = 0;  // version of the robot's trajectory
     int moves = 0;             // how often robots have got more moves
     double bound = kForever;   // seconds; a trajectory that costs as much is no cheaper
-    SearchLimits limits;
+    SearchSettings settings;
     std::uint64_t seed = 0;  // of the smoothing
     SearchResult result{std::nullopt, false, 0};
   };

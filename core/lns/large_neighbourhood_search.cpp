@@ -179,7 +179,7 @@ class LargeNeighbourhoodSearch {
       --iterations_left_;
       step.iteration = iterations_.choose();
     }
-    const bool searches = step.test || step.iteration.options.limits;
+    const bool searches = step.test || step.iteration.options.settings;
     if (searches && steps_before_more_moves_ > 0) --steps_before_more_moves_;
     return step;
   }

@@ -149,7 +149,7 @@ class NeighbourhoodPlanning {
         queue_{robots.front()} {}
 
   NeighbourhoodResult run() {
-    const bool accepted = options_.limits ? plan_queue() : smooth_first();
+    const bool accepted = options_.settings ? plan_queue() : smooth_first();
     for (const Change::Part& part : before_) state_.reservations().remove(part.robot);
     for (Change::Part& part : before_) state_.reservations().follow(part.robot, std::move(part.trajectory));
     NeighbourhoodResult result{std::nullopt, expansions_, effort_ + static_cast<double>(expansions_)};
@@ -199,31 +199,31 @@ class NeighbourhoodPlanning {
 
   /// Plans the robot at this position of the queue. At first only the robots in the queue are ignored.
   SearchResult search(std::size_t position) {
-    SearchLimits limits = *options_.limits;
-    limits.bound = std::min(options_.cost_limit, cost_bound(position));
+    SearchSettings settings = *options_.settings;
+    settings.bound = std::min(options_.cost_limit, cost_bound(position));
     if (position > 0) {
       const auto waiting = queue_.begin() + static_cast<std::ptrdiff_t>(position);
-      SearchResult result = search({waiting, queue_.end()}, queue_[position], limits);
+      SearchResult result = search({waiting, queue_.end()}, queue_[position], settings);
       const bool all_in_queue = queue_.size() - position == unplanned_.size();
       if (result.trajectory || all_in_queue) return result;
     }
-    return search(unplanned_, queue_[position], limits);
+    return search(unplanned_, queue_[position], settings);
   }
 
   SearchResult search(const std::vector<std::size_t>& ignored, std::size_t robot,
-                      const SearchLimits& limits) {
-    SearchLimits loose = limits;
+                      const SearchSettings& settings) {
+    SearchSettings loose = settings;
     const Trajectory& now = *state_.reservations().trajectory(robot);
     // What it finds may be smoothed as much.
     loose.bound += std::min(now.smoothed_by, kMaxSmoothed * now.cost);
-    if (limits.suboptimality == 0.0) loose.bound *= 1.0 + kEstimateError;
+    if (settings.suboptimality == 0.0) loose.bound *= 1.0 + kEstimateError;
     SearchResult result = state_.plan_ignoring(robot, ignored, loose, stop_);
     effort_ += kSearchEffort;
     expansions_ += result.expansions;
     if (!result.trajectory) return result;
     const IgnoredRobots absent(state_.reservations(), ignored);
     smooth_path(robot, *result.trajectory);
-    if (result.trajectory->cost >= limits.bound) result.trajectory.reset();
+    if (result.trajectory->cost >= settings.bound) result.trajectory.reset();
     return result;
   }
 

@@ -79,7 +79,7 @@ struct NeighbourhoodOptions {
   double min_gain_share = 0.0;   // [0, 1); share of the first robot's delay that it has to gain at least
   /// Limits of every search; the bound follows from the other members. None: the first robot's path is
   /// smoothed, and nothing else.
-  std::optional<SearchLimits> limits = SearchLimits();
+  std::optional<SearchSettings> settings = SearchSettings();
   int tries = 100;  // to smooth each path
 };
 

@@ -42,7 +42,7 @@ struct OpenGoal {
 };
 
 /// The farthest tolerance, metres.
-inline constexpr double kMaxTolerance = 1.0;
+inline constexpr double kMaxGoalTolerance = 1.0;
 
 /// Adds poses about its own one to a goal with a tolerance: on eight circles, in twelve directions, with its
 /// heading. They are for when its own pose is of no use; nearer ones are preferred, whatever the way there

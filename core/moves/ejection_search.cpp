@@ -18,12 +18,12 @@ constexpr std::int64_t kMaxEjectionExpansions = 5'000;
 /// Finds paths with fewer expansions than the usual weight. They are improved later.
 constexpr double kEjectionWeight = 2.0;
 
-SearchLimits ejection_limits() {
-  SearchLimits limits;
-  limits.heuristic_weight = kEjectionWeight;
-  limits.thorough = false;
-  limits.max_expansions = kMaxEjectionExpansions;
-  return limits;
+SearchSettings ejection_settings() {
+  SearchSettings settings;
+  settings.heuristic_weight = kEjectionWeight;
+  settings.thorough = false;
+  settings.max_expansions = kMaxEjectionExpansions;
+  return settings;
 }
 
 }  // namespace
@@ -36,7 +36,7 @@ SearchResult EjectionSearch::plan(std::size_t robot, Robots planned, const std::
   sort_by_ejection(planned, failures);
   for (const std::size_t count : counts_to_ignore(planned)) {
     const Robots ignored(planned.begin(), planned.begin() + static_cast<std::ptrdiff_t>(count));
-    SearchResult result = state_.plan_ignoring(robot, ignored, ejection_limits(), stop_);
+    SearchResult result = state_.plan_ignoring(robot, ignored, ejection_settings(), stop_);
     if (!result.trajectory) continue;
     protected_until_[robot] = calls_ + 2 + static_cast<std::int64_t>(random_.below(kMaxProtectedCalls));
     return eject_fewer(robot, std::move(result), planned);
@@ -80,7 +80,7 @@ SearchResult EjectionSearch::eject_fewer(std::size_t robot, SearchResult result,
     const auto rest = candidates.begin() + static_cast<std::ptrdiff_t>(count);
     Robots ignored(rest, candidates.end());
     ignored.insert(ignored.end(), needed.begin(), needed.end());
-    SearchResult better = state_.plan_ignoring(robot, ignored, ejection_limits(), stop_);
+    SearchResult better = state_.plan_ignoring(robot, ignored, ejection_settings(), stop_);
     if (better.trajectory) {
       result = std::move(better);
       const Robots now = state_.reservations().conflicting_robots(robot, *result.trajectory);

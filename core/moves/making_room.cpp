@@ -249,9 +249,9 @@ void replan_for_less(PlanState& state, const std::vector<std::size_t>& robots, c
     is_any_better = false;
     for (const std::size_t robot : robots) {
       if (stop.met()) return;
-      const SearchLimits limits{.bound = state.reservations().trajectory(robot)->cost - kLeastGain,
-                                .max_expansions = kMaxSearchExpansions};
-      is_any_better = state.replan(robot, limits, stop).trajectory.has_value() || is_any_better;
+      const SearchSettings settings{.bound = state.reservations().trajectory(robot)->cost - kLeastGain,
+                                    .max_expansions = kMaxSearchExpansions};
+      is_any_better = state.replan(robot, settings, stop).trajectory.has_value() || is_any_better;
     }
   }
 }

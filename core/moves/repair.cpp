@@ -44,12 +44,12 @@ constexpr std::int64_t kFailuresBeforeSteps = 100;
 
 constexpr auto kAnyNumber = std::numeric_limits<std::int64_t>::max();
 
-/// Returns the limits of the first search of a robot. It is incomplete: when it fails, others follow.
-SearchLimits quick_search(const Lattice& lattice) {
-  SearchLimits limits;
-  limits.thorough = false;
-  limits.max_expansions = std::max<std::int64_t>(kMaxQuickExpansions, lattice.vertex_count() / 2);
-  return limits;
+/// Returns the settings of the first search of a robot. It is incomplete: when it fails, others follow.
+SearchSettings quick_search(const Lattice& lattice) {
+  SearchSettings settings;
+  settings.thorough = false;
+  settings.max_expansions = std::max<std::int64_t>(kMaxQuickExpansions, lattice.vertex_count() / 2);
+  return settings;
 }
 
 /// The maximum number of robots outside a cycle whose ranks are shuffled along with it.
@@ -181,20 +181,20 @@ class Repair {
   /// Whether a robot has failed.
   bool is_crowded() const { return result_.attempts > 1; }
 
-  SearchLimits quick_search_of(std::size_t robot) const {
+  SearchSettings quick_search_of(std::size_t robot) const {
     return quick_search(state_.instance().lattice(robot));
   }
 
   SearchResult plan_quickly(std::size_t robot) {
-    SearchLimits limits = quick_search_of(robot);
-    if (is_crowded()) limits.heuristic_weight = kCrowdWeight;
-    if (state_.expansions() < kManyExpansions) return state_.plan(robot, limits, stop_);
-    limits.max_expansions = kFewExpansions;
-    SearchResult result = state_.plan(robot, limits, stop_);
+    SearchSettings settings = quick_search_of(robot);
+    if (is_crowded()) settings.heuristic_weight = kCrowdWeight;
+    if (state_.expansions() < kManyExpansions) return state_.plan(robot, settings, stop_);
+    settings.max_expansions = kFewExpansions;
+    SearchResult result = state_.plan(robot, settings, stop_);
     if (result.trajectory || result.complete || result.expansions < kFewExpansions) return result;
-    limits = quick_search_of(robot);
-    limits.heuristic_weight = kGreedyWeight;
-    return state_.plan(robot, limits, stop_);
+    settings = quick_search_of(robot);
+    settings.heuristic_weight = kGreedyWeight;
+    return state_.plan(robot, settings, stop_);
   }
 
   /// Whether a search ended without a trajectory, but not because the time or the memory is spent.
@@ -240,14 +240,14 @@ class Repair {
   /// Returns whether it has a plan now.
   bool passes_yielding(std::size_t robot, const SearchResult& in_place) {
     ++asks_[robot];
-    SearchLimits limits = quick_search_of(robot);
-    limits.bound = max_cost(robot, in_place);
-    SearchResult result = plan_past_yielding(state_, robot, limits, stop_);
+    SearchSettings settings = quick_search_of(robot);
+    settings.bound = max_cost(robot, in_place);
+    SearchResult result = plan_past_yielding(state_, robot, settings, stop_);
     if (!result.trajectory || result.trajectory->gains_nothing) return false;
     const std::vector<std::size_t> asked = reservations_.conflicting_robots(robot, *result.trajectory);
-    const bool needs = limits.bound == kForever;
+    const bool needs = settings.bound == kForever;
     if (!needs && !is_worth(in_place.trajectory->cost - result.trajectory->cost, asked)) return false;
-    if (comes_after(robot, asked, limits.bound)) return true;
+    if (comes_after(robot, asked, settings.bound)) return true;
     reservations_.follow(robot, std::move(*result.trajectory));
     for (const std::size_t other : asked) {
       if (!reservations_.trajectory(other)) continue;

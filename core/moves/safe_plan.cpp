@@ -17,7 +17,7 @@ using Reason = Unplanned::Reason;
 
 /// The searches for one robot, round by round: most robots that have a path find it soon, and a search that
 /// fails may take as long as hundreds that do not.
-constexpr std::array<SearchLimits, 3> kRounds{{
+constexpr std::array<SearchSettings, 3> kRounds{{
     {.heuristic_weight = 2.0, .thorough = false, .max_expansions = 200},
     {.thorough = false, .max_expansions = 5'000},
     {},
@@ -84,10 +84,10 @@ class SafePlanner {
   }
 
   /// Plans each robot that stays once. Returns whether another round may help.
-  bool plan_staying_robots(const SearchLimits& limits) {
+  bool plan_staying_robots(const SearchSettings& settings) {
     const std::vector<std::size_t> robots = staying_;
     for (const std::size_t robot : robots) {
-      if (!reservations_.trajectory(robot) && try_plan(robot, limits)) resume_those_waiting_for(robot);
+      if (!reservations_.trajectory(robot) && try_plan(robot, settings)) resume_those_waiting_for(robot);
     }
     std::erase_if(staying_, [&](std::size_t robot) { return reservations_.trajectory(robot).has_value(); });
     return staying_.size() < robots.size() && !staying_.empty() && !stop_.met();
@@ -115,14 +115,14 @@ class SafePlanner {
     progress_.update();
   }
 
-  bool try_plan(std::size_t robot, const SearchLimits& limits) {
+  bool try_plan(std::size_t robot, const SearchSettings& settings) {
     state_.memory().relieve();
     if (stop_.met()) {
       result_.cut_off = true;
       return false;
     }
     reservations_.remove(robot);
-    SearchResult result = state_.plan(robot, limits, stop_);
+    SearchResult result = state_.plan(robot, settings, stop_);
     if (result.trajectory) {
       reservations_.follow(robot, std::move(*result.trajectory));
       return true;

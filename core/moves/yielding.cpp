@@ -26,7 +26,7 @@ bool any_yields(const Instance& instance) {
   return std::any_of(instance.itineraries().begin(), instance.itineraries().end(), is_yielding);
 }
 
-SearchResult plan_past_yielding(PlanState& state, std::size_t robot, const SearchLimits& limits,
+SearchResult plan_past_yielding(PlanState& state, std::size_t robot, const SearchSettings& settings,
                                 const StopCondition& stop) {
   FleetReservations& reservations = state.reservations();
   const Instance& instance = state.instance();
@@ -40,13 +40,13 @@ SearchResult plan_past_yielding(PlanState& state, std::size_t robot, const Searc
     shortened.push_back(other);
   }
   if (shortened.empty()) return {};
-  SearchResult result = state.search(robot, limits, stop);
+  SearchResult result = state.search(robot, settings, stop);
   for (const std::size_t other : shortened) reservations.lengthen(other);
   return result;
 }
 
 SearchResult plan_making_way(PlanState& state, std::size_t robot, std::size_t other,
-                             const SearchLimits& limits, const StopCondition& stop) {
+                             const SearchSettings& settings, const StopCondition& stop) {
   FleetReservations& reservations = state.reservations();
   const Trajectory followed = *reservations.trajectory(robot);
   const std::vector<Goal>& goals = state.instance().itinerary(other).goals;
@@ -55,7 +55,7 @@ SearchResult plan_making_way(PlanState& state, std::size_t robot, std::size_t ot
       goals.begin(), goals.end(), [&](const Goal& a, const Goal& b) { return distance(a) < distance(b); });
   reservations.remove(robot);
   reservations.reserve_goal(other, static_cast<std::size_t>(nearest - goals.begin()));
-  SearchResult result = state.search(robot, limits, stop);
+  SearchResult result = state.search(robot, settings, stop);
   reservations.remove(other);
   reservations.follow(robot, followed);
   return result;

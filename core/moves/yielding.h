@@ -15,14 +15,14 @@ bool any_yields(const Instance& instance);
 /// Plans a robot as PlanState::search() does, as if each planned robot that yields were gone as soon as it
 /// has served its own goals and stood there for the start safe interval. No trajectory if there are no such
 /// robots. Afterwards all reservations are as they were.
-SearchResult plan_past_yielding(PlanState& state, std::size_t robot, const SearchLimits& limits,
+SearchResult plan_past_yielding(PlanState& state, std::size_t robot, const SearchSettings& settings,
                                 const StopCondition& stop);
 
 /// Plans a robot that yields and has a trajectory anew, so that it makes way for `other`, which has no
 /// reservation: it does not end at the goal of `other` that is nearest to where it ends now. Afterwards all
 /// reservations are as they were.
 SearchResult plan_making_way(PlanState& state, std::size_t robot, std::size_t other,
-                             const SearchLimits& limits, const StopCondition& stop);
+                             const SearchSettings& settings, const StopCondition& stop);
 
 /// Whether a robot yields and moves after it has served its own goals.
 bool makes_way(const FleetReservations& reservations, std::size_t robot);

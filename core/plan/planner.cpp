@@ -156,10 +156,10 @@ constexpr double kLeastGain = 1e-6;
 /// it has found such a plan.
 bool undo_vain_move(PlanState& state, std::size_t robot, std::int64_t& expansions_left,
                     const StopCondition& stop) {
-  SearchLimits limits;
-  limits.bound = state.reservations().trajectory(robot)->cost - kLeastGain;
-  limits.max_expansions = std::max<std::int64_t>(expansions_left, 1);
-  const SearchResult result = state.replan(robot, limits, stop);
+  SearchSettings settings;
+  settings.bound = state.reservations().trajectory(robot)->cost - kLeastGain;
+  settings.max_expansions = std::max<std::int64_t>(expansions_left, 1);
+  const SearchResult result = state.replan(robot, settings, stop);
   expansions_left -= result.expansions;
   return result.trajectory.has_value();
 }

@@ -33,7 +33,7 @@ struct Evaluation {
 /// Where the path ends: the best ends that a pass has found, until one of them is good enough.
 class PathEnd {
  public:
-  explicit PathEnd(const SearchLimits& limits) : limits_(limits) {}
+  explicit PathEnd(const SearchSettings& settings) : limits_(settings) {}
 
   void begin() {
     label_ = rest_ = LabelId::none;
@@ -80,7 +80,7 @@ class PathEnd {
   }
 
  private:
-  const SearchLimits& limits_;
+  const SearchSettings& limits_;
   LabelId label_ = LabelId::none;
   EntryId entry_ = EntryId::none;
   double entry_cost_ = kForever;
@@ -140,21 +140,21 @@ class Search {
   /// that the complete pass may keep. `stopped`: by the stop condition or the limit of expansions.
   enum class Outcome : std::uint8_t { found, exhausted, incomplete, stopped };
 
-  Search(const ReservationTable& table, SearchSpace& space, const SearchLimits& limits,
+  Search(const ReservationTable& table, SearchSpace& space, const SearchSettings& settings,
          const StopCondition& stop, SearchState state)
       : space_(space),
         body_(space.vertices().body()),
-        limits_(limits),
+        limits_(settings),
         stop_(stop),
         has_slow_queries_(table.is_costly() || body_.linear_inertia.is_limited),
         state_(std::move(state)),
-        goals_(space, limits.horizon, state_),
+        goals_(space, settings.horizon, state_),
         successors_(table, space, goals_, state_, stop),
         dominated_(state_.dominance, goals_, body_),
-        end_(limits),
-        next_check_(limits.no_path_test == nullptr
-                        ? limits.max_expansions
-                        : std::min(limits.max_expansions, SearchLimits::kFirstTest)) {}
+        end_(settings),
+        next_check_(settings.no_path_test == nullptr
+                        ? settings.max_expansions
+                        : std::min(settings.max_expansions, SearchSettings::kFirstTest)) {}
 
   Outcome run(Pass pass);
   Trajectory trajectory() const { return goals_.trajectory_to(end_.label()); }
@@ -178,7 +178,7 @@ class Search {
 
   SearchSpace& space_;
   const Body& body_;
-  const SearchLimits& limits_;
+  const SearchSettings& limits_;
   const StopCondition& stop_;
   const bool has_slow_queries_;  // of the reservations
   SearchState state_;
@@ -189,7 +189,7 @@ class Search {
   PathEnd end_;
   bool stopped_ = false;         // while a pass was prepared
   std::int64_t expansions_ = 0;  // of all passes
-  std::int64_t next_check_;      // of the limits, after so many expansions
+  std::int64_t next_check_;      // of the bounds of effort, after so many expansions
 };
 
 Search::Outcome Search::run(Pass pass) {
@@ -407,10 +407,10 @@ inline Evaluation Search::evaluate(PlaceId id, int interval, double arrival, dou
 
 }  // namespace
 
-SearchResult AaSipp::run(SearchSpace& space, const SearchLimits& limits, const StopCondition& stop) {
-  Search search(table_, space, limits, stop, std::move(state_));
+SearchResult AaSipp::run(SearchSpace& space, const SearchSettings& settings, const StopCondition& stop) {
+  Search search(table_, space, settings, stop, std::move(state_));
   Search::Outcome outcome = search.run(Pass::quick);
-  if (outcome == Search::Outcome::incomplete && limits.thorough) outcome = search.run(Pass::complete);
+  if (outcome == Search::Outcome::incomplete && settings.thorough) outcome = search.run(Pass::complete);
   SearchResult result;
   if (outcome == Search::Outcome::found) result.trajectory = search.trajectory();
   result.complete = outcome != Search::Outcome::stopped;

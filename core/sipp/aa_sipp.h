@@ -25,7 +25,7 @@ class NoPathTest {
 };
 
 /// The parameters of the search for one robot: limits of cost and effort, and the accepted suboptimality.
-struct SearchLimits {
+struct SearchSettings {
   double bound = kForever;        // seconds; only trajectories that cost less are accepted
   double heuristic_weight = 1.1;  // >= 1; weight of h in f = g + weight * h (weighted A*; Pohl, 1970)
   double suboptimality = 0.01;    // accepts a path to the goal that costs at most (1 + this) * the smallest f
@@ -105,7 +105,7 @@ struct SearchResult {
 /// increments waits by a step until a move is free of collisions; here departures have a closed form.
 ///
 /// run() makes one or two passes of this search. The quick pass also discards arrivals that are not
-/// dominated but hardly better than others (SearchLimits::thorough). If it finds no path and has discarded
+/// dominated but hardly better than others (SearchSettings::thorough). If it finds no path and has discarded
 /// such an arrival, the complete pass searches again and discards dominated arrivals only.
 class AaSipp {
  public:
@@ -113,7 +113,7 @@ class AaSipp {
 
   /// Plans the robot of this space from the end of its committed actions, or its start, to its goal (which it
   /// has). The robot holds no reservation.
-  SearchResult run(SearchSpace& space, const SearchLimits& limits, const StopCondition& stop);
+  SearchResult run(SearchSpace& space, const SearchSettings& settings, const StopCondition& stop);
 
   /// Frees what is kept for the next search.
   void release_memory() { state_ = SearchState(); }

@@ -53,7 +53,7 @@ std::optional<double> estimated_end(SearchSpace& space, const StopCondition& sto
 /// good; at the last goal or, with a horizon, wherever the robot may stay from then on.
 class Goals {
  public:
-  /// `horizon`: see SearchLimits. All arguments outlive this object.
+  /// `horizon`: see SearchSettings. All arguments outlive this object.
   Goals(SearchSpace& space, double horizon, SearchState& state);
 
   /// Makes the stages of a pass; false if `stop` is met first.

@@ -25,7 +25,7 @@ namespace {
 
 /// The limits of a search that finds the cheapest path that any of the planner's searches can be expected to
 /// find.
-constexpr SearchLimits kExact{
+constexpr SearchSettings kExact{
     .heuristic_weight = 1.0, .suboptimality = 0.0, .suboptimality_growth = 0.0, .dominance_slack = 0.0};
 
 double metres_of(const Trajectory& trajectory) {

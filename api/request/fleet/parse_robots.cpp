@@ -38,7 +38,7 @@ constexpr std::array<std::string_view, 16> kGoalMembers{"x",
                                                         "linear_deceleration_after",
                                                         "actions",
                                                         "metadata"};
-constexpr Range kGoalTolerance{0.0, core::kMaxTolerance, "metres"};
+constexpr Range kGoalTolerance{0.0, core::kMaxGoalTolerance, "metres"};
 constexpr std::array<std::string_view, 4> kAlternativeMembers{"x", "y", "theta", "bias"};
 
 /// A robot that waits for `not_before` is not late, so it cannot be due before.

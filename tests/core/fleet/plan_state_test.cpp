@@ -83,7 +83,7 @@ TEST(PlanState, FindsAWholeWayPastAnIgnoredRobotThatClosesIt) {
   for (std::size_t other = 1; other < p.instance.size(); ++other) p.reservations.stay_in_place(other);
   p.state.set_whole_way_of(0);
   const auto found = p.state.plan_ignoring(0, {1}, {}, p.never).trajectory;
-  EXPECT_GT(p.state.expansions(), SearchLimits::kFirstTest);
+  EXPECT_GT(p.state.expansions(), SearchSettings::kFirstTest);
   ASSERT_TRUE(found);
   EXPECT_GT(found->cost, 56.0) << "around the row";
   EXPECT_EQ(found->end(), Position(58.5, 20.5));

@@ -126,13 +126,13 @@ struct IterationsOfLateRobots : LateRobots {
   void in_vain(int count) {
     while (count > 0) {
       Iteration iteration = iterations.choose();
-      if (iteration.options.limits) --count;
+      if (iteration.options.settings) --count;
       EXPECT_FALSE(iterations.accept(iteration, *workspace));
     }
   }
   Iteration choose_search() {
     Iteration iteration = iterations.choose();
-    while (!iteration.options.limits) iteration = iterations.choose();
+    while (!iteration.options.settings) iteration = iterations.choose();
     return iteration;
   }
   double max_loss() { return iterations.choose().options.max_loss; }
@@ -187,7 +187,7 @@ TEST(Iterations, SmoothWithoutASearchOnceSearchesAreInVain) {
   IterationsOfLateRobots p;
   const auto smoothed = [&] {
     int count = 0;
-    for (int k = 0; k < 200; ++k) count += p.iterations.choose().options.limits ? 0 : 1;
+    for (int k = 0; k < 200; ++k) count += p.iterations.choose().options.settings ? 0 : 1;
     return count;
   };
   EXPECT_EQ(smoothed(), 0);
@@ -208,7 +208,7 @@ TEST(Iterations, SmoothOneRobotAfterTheOtherUntilNoneGains) {
   EXPECT_EQ(p.incumbent.cost(0), LateRobots::row(2.5, 10.0).cost) << "no worse one is accepted";
   const auto smooth_next = [&](std::optional<double> departure) {
     Iteration iteration = p.iterations.choose();
-    EXPECT_FALSE(iteration.options.limits);
+    EXPECT_FALSE(iteration.options.settings);
     if (departure) {
       Trajectory changed = LateRobots::row(2.5, *departure);
       const double gain = p.incumbent.cost(0) - changed.cost;
@@ -219,7 +219,7 @@ TEST(Iterations, SmoothOneRobotAfterTheOtherUntilNoneGains) {
   };
   const auto searches_again = [&] {
     int searches = 0;
-    for (int k = 0; k < 50; ++k) searches += p.iterations.choose().options.limits ? 1 : 0;
+    for (int k = 0; k < 50; ++k) searches += p.iterations.choose().options.settings ? 1 : 0;
     return searches > 0;
   };
   EXPECT_EQ(smooth_next(std::nullopt), 0U);

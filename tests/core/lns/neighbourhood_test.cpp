@@ -179,7 +179,7 @@ TEST(PlanNeighbourhood, KeepsAllCostsBelowTheLimit) {
 TEST(PlanNeighbourhood, SmoothsTheFirstRobotOnly) {
   Crossing p;
   NeighbourhoodOptions options;
-  options.limits = std::nullopt;
+  options.settings = std::nullopt;
   NeighbourhoodResult result = p.plan_again({0, 1}, options);
   ASSERT_TRUE(result.change) << "its wait is longer than necessary";
   EXPECT_EQ(result.expansions, 0);

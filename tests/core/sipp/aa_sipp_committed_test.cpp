@@ -35,7 +35,7 @@ Action committed_wait(const Pose& at, double t_start, double t_end) {
 /// From (1.5, 2.5) slowly to (3.5, 2.5) at t = 4.
 std::vector<Action> slow_move() { return {committed_move({{1.5, 2.5}, 0.0}, {3.5, 2.5}, 0.0, 4.0)}; }
 
-Trajectory plan_exactly(Planning& p, const SearchLimits& limits = kExact) {
+Trajectory plan_exactly(Planning& p, const SearchSettings& limits = kExact) {
   const SearchResult result = p.state.plan(0, limits, p.never);
   EXPECT_TRUE(result.trajectory);
   return result.trajectory.value_or(Trajectory());
@@ -83,7 +83,7 @@ TEST(AaSippCommitted, RotatesToTheGoalHeadingAfterThem) {
 
 TEST(AaSippCommitted, StartDelayBeginsAfterThem) {
   Planning p(OccupancyGrid(10, 5, 1.0), {with_committed(robot_at(1.5, 2.5).to(8.5, 2.5), slow_move())});
-  SearchLimits limits = kExact;
+  SearchSettings limits = kExact;
   limits.start_delay = 2.5;
   EXPECT_NEAR(plan_exactly(p, limits).cost, 4.0 + 2.5 + 5.0, 1e-12);
 }
@@ -111,7 +111,7 @@ TEST(AaSippCommitted, FindsNoPlanIfTheirEndIsOccupiedThen) {
 
 TEST(AaSippCommitted, AcceptsOnlyCostsBelowTheBoundCommittedTimeIncluded) {
   Planning p(OccupancyGrid(10, 5, 1.0), {with_committed(robot_at(1.5, 2.5).to(8.5, 2.5), slow_move())});
-  SearchLimits limits = kExact;
+  SearchSettings limits = kExact;
   limits.bound = 9.0;
   EXPECT_FALSE(p.state.plan(0, limits, p.never).trajectory);
   limits.bound = 9.001;

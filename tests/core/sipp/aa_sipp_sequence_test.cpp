@@ -40,7 +40,7 @@ struct Planned {
 };
 
 /// Plans robot 0, reserves the result and checks it.
-Planned plan_first(Planning& p, const SearchLimits& limits = kExact) {
+Planned plan_first(Planning& p, const SearchSettings& limits = kExact) {
   const SearchResult result = p.state.plan(0, limits, p.never);
   EXPECT_TRUE(result.trajectory);
   if (!result.trajectory) return {};

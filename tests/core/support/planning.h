@@ -21,7 +21,7 @@
 namespace fleetplan::core {
 
 /// Limits for a search with exact dominance that returns the cheapest path that it can find.
-inline constexpr SearchLimits kExact{
+inline constexpr SearchSettings kExact{
     .heuristic_weight = 1.0, .suboptimality = 0.0, .suboptimality_growth = 0.0, .dominance_slack = 0.0};
 
 struct Planning {
