@@ -347,7 +347,7 @@ class TaskReader {
     core::Task& task = request.tasks.emplace_back();
     if (goals) {
       task.goals = parse_goals(json, request_.plan.frame, goals_).goals;
-      for (const JsonReader goal : goals.items()) reject_choices(goal);
+      for (const JsonReader goal : goals.items()) reject_any_of(goal);
     }
     task.robots = robots(json.find("robots"));
     json.find("due").number(kDuration);
@@ -357,14 +357,10 @@ class TaskReader {
 
  private:
   /// Arrivals are those at given poses.
-  static void reject_choices(const JsonReader& goal) {
-    for (const char* name : {"any_of", "tolerance"}) {
-      const JsonReader member = goal.find(name);
-      if (!member) continue;
-      member.fault(fault::kUnknownKey, [&] {
-        return "Goals of tasks have no " + std::string(name) + "; give each of them a pose.";
-      });
-    }
+  static void reject_any_of(const JsonReader& goal) {
+    const JsonReader any_of = goal.find("any_of");
+    if (!any_of) return;
+    any_of.fault(fault::kUnknownKey, "Goals of tasks have no any_of; give each of them a pose.");
   }
 
   void check_id(const JsonReader& member, const std::string& id) {

@@ -57,8 +57,8 @@ const BEYOND_SCHEMA = {
     "/obstacles/\\d+/motion/\\d+/t",
     "/disturbance/(speed|turn|start_delay)/max",
     "/trace",
-    "/plans/\\d+/visits/\\d+/choice", // of another goal
-    "(/robots/\\d+/goal(s/\\d+)?|/(goals|tasks)/\\d+/goals/\\d+)/choice", // of no pose of any_of
+    "/plans/\\d+/visits/\\d+/(choice|place)", // of another goal
+    "(/robots/\\d+/goal(s/\\d+)?|/(goals|tasks)/\\d+/goals/\\d+)/(choice|place)", // of no pose of any_of; beyond the tolerance
     "(/robots?(/\\d+(/goal(s/\\d+)?)?)?|/(goals|tasks)/\\d+/goals/\\d+)?/metadata",
     "(/robots/\\d+/goal(s/\\d+)?|/(goals|tasks)/\\d+/goals/\\d+)/(actions|service|due|linear_(acc|dec)eleration_after)", // actions need a service; due before not_before; loads of robots without accelerations
     "/states/\\d+/released(/action)?", // behind the robot

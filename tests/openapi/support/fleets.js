@@ -113,7 +113,8 @@ function fleets(document, map, free) {
           const at = place(free[cell], pose);
           // Some goals may be served at the last one, too.
           const anywhere = cell % 3 === 0 && k > 0;
-          return { ...(anywhere ? { any_of: [{ ...at, bias: k }, end] } : at), ...errand };
+          const near = cell % 3 === 1 ? { ...at, tolerance: 0.25 } : at;
+          return { ...(anywhere ? { any_of: [{ ...at, bias: k }, end] } : near), ...errand };
         });
         return { ...one, goals: [...passed, last] };
       }),
