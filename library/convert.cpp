@@ -85,6 +85,10 @@ core::OccupancyGrid grid_of(const Map& map) {
 
 namespace {
 
+std::optional<double> normalized(const std::optional<double>& theta) {
+  return theta ? std::optional(core::normalize_angle(*theta)) : std::nullopt;
+}
+
 /// Gives a goal the pose at which it is served, or the first of those at which it may be.
 void set_pose(core::Goal& made, const Goal& goal, const Frame& frame) {
   std::optional<double> theta = goal.theta;
@@ -96,7 +100,7 @@ void set_pose(core::Goal& made, const Goal& goal, const Frame& frame) {
     made.position = frame.to_core(pose.x, pose.y);
   }
   if (goal.tolerance > 0.0 && goal.place) made.position = frame.to_core(goal.place->x, goal.place->y);
-  if (theta) made.theta = core::normalize_angle(*theta);
+  made.theta = normalized(theta);
 }
 
 }  // namespace
@@ -138,11 +142,8 @@ core::OpenGoal goal_with_tolerance(const Goal& goal, std::size_t number, const F
   core::OpenGoal made;
   made.tolerance = goal.tolerance;
   made.own = frame.to_core(goal.x, goal.y);
-  core::Robot alone;
-  alone.goal = core::Goal{made.own, goal.theta};
-  if (alone.goal->theta) alone.goal->theta = core::normalize_angle(*goal.theta);
-  made.poses = {{made.own, alone.goal->theta}};
-  made.is_told = goal.place && core::choose_place(alone, made, frame.to_core(goal.place->x, goal.place->y));
+  made.poses = {{made.own, normalized(goal.theta)}};
+  made.is_told = goal.place && core::take_place(made, frame.to_core(goal.place->x, goal.place->y));
   made.goal = number;
   return made;
 }
@@ -160,8 +161,8 @@ std::vector<core::OpenGoal> open_goals_of(const Robot& robot, const Frame& frame
     made.is_told = goal.choice && *goal.choice < goal.any_of.size();
     if (made.is_told) made.chosen = *goal.choice;
     for (const Alternative& pose : goal.any_of) {
-      const auto theta = pose.theta ? std::optional(core::normalize_angle(*pose.theta)) : std::nullopt;
-      made.poses.push_back({frame.to_core(pose.x, pose.y), theta, pose.bias, made.poses.size()});
+      made.poses.push_back(
+          {frame.to_core(pose.x, pose.y), normalized(pose.theta), pose.bias, made.poses.size()});
     }
   }
   return open;
@@ -240,9 +241,8 @@ namespace {
 
 /// Tells where an open goal is served.
 void tell_choice(const std::vector<core::OpenGoal>& open, const Frame& frame, Visit& visit) {
-  const auto found = std::find_if(open.begin(), open.end(),
-                                  [&](const core::OpenGoal& one) { return one.goal == visit.goal; });
-  if (found == open.end()) return;
+  const core::OpenGoal* found = core::find_open(open, visit.goal);
+  if (found == nullptr) return;
   if (found->tolerance == 0.0) {
     visit.choice = found->choice().number;
     return;

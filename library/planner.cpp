@@ -70,11 +70,13 @@ std::vector<core::RobotPlan> core_plans(std::span<const RobotPlan> plans, const 
 /// Chooses what a visit names. Returns whether the goal has it.
 bool choose_for(const Visit& visit, const library::Frame& frame, core::Robot& robot, core::OpenGoal& goal) {
   if (visit.place) {
-    return goal.tolerance > 0.0 && !visit.choice &&
-           core::choose_place(robot, goal, frame.to_core(visit.place->x, visit.place->y));
+    const bool may = goal.tolerance > 0.0 && !visit.choice;
+    if (!may || !core::take_place(goal, frame.to_core(visit.place->x, visit.place->y))) return false;
+  } else {
+    if (goal.tolerance > 0.0 || *visit.choice >= goal.poses.size()) return false;
+    goal.chosen = *visit.choice;
   }
-  if (goal.tolerance > 0.0 || *visit.choice >= goal.poses.size()) return false;
-  core::choose(robot, goal, *visit.choice);
+  core::choose(robot, goal, goal.chosen);
   return true;
 }
 
@@ -84,9 +86,8 @@ void settle_choices(const RobotPlan& plan, std::span<const core::Action> actions
   bool is_told = false;
   for (const Visit& visit : plan.visits) {
     if (!visit.choice && !visit.place) continue;
-    const auto goal = std::find_if(open.begin(), open.end(),
-                                   [&](const core::OpenGoal& one) { return one.goal == visit.goal; });
-    if (goal == open.end() || !choose_for(visit, frame, robot, *goal)) {
+    core::OpenGoal* goal = core::find_open(open, visit.goal);
+    if (goal == nullptr || !choose_for(visit, frame, robot, *goal)) {
       throw std::invalid_argument("a visit names a pose or a place that its goal does not have");
     }
     goal->is_settled = is_told = true;

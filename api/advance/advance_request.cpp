@@ -383,10 +383,7 @@ class GoalsToRepeat {
   const core::OpenGoal* open_goal(std::size_t goal) const {
     if (is_passed(goal)) return nullptr;
     const std::size_t number = are_other_ ? goal - passed_.count : passed_.first + goal;
-    for (const core::OpenGoal& open : are_other_ ? repeated_.other_open : repeated_.open) {
-      if (open.goal == number) return &open;
-    }
-    return nullptr;
+    return core::find_open(are_other_ ? repeated_.other_open : repeated_.open, number);
   }
 
   const core::Robot& left_;

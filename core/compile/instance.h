@@ -51,6 +51,9 @@ class Instance {
   /// What is left to plan for the robot after its committed actions.
   const Itinerary& itinerary(std::size_t index) const { return itineraries_[index]; }
   const std::vector<Itinerary>& itineraries() const { return itineraries_; }
+  /// When a robot with a goal ends its last service by its previous plan, seconds; see
+  /// previous_service_end().
+  double previous_end(std::size_t index) const { return previous_service_end(problem_.robots()[index]); }
   /// The lattice that the robot is planned on.
   const Lattice& lattice(std::size_t index) const { return *lattices_[index]; }
   /// The line of sight of a robot: past walls and the zones that are blocked for it.

@@ -130,7 +130,7 @@ SearchResult PlanState::search_whole_way(std::size_t robot, const SearchSettings
   EnclosureTest test(ways_, robot, stop);
   SearchSettings with_test = settings;
   with_test.no_path_test = &test;
-  with_test.bound = std::min(settings.bound, instance_.itinerary(robot).previous_end + kNoLater);
+  with_test.bound = std::min(settings.bound, instance_.previous_end(robot) + kNoLater);
   SearchResult result = search_until(kForever, robot, with_test, stop);
   if (!result.trajectory && with_test.bound < settings.bound) {
     with_test.bound = settings.bound;

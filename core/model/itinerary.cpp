@@ -75,7 +75,6 @@ Itinerary itinerary_of(const Robot& robot) {
   itinerary.is_idle = robot.is_idle();
   itinerary.weight = robot.weight;
   itinerary.goal_age = robot.goal_age;
-  if (robot.goal) itinerary.previous_end = previous_service_end(robot);
   itinerary.direct_way = direct_way(robot);
   return itinerary;
 }

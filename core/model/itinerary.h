@@ -37,12 +37,11 @@ struct Itinerary {
   /// nullopt: as before. Empty if the radius never changes.
   std::vector<std::optional<double>> radius_after = {};
 
-  bool is_invalid = false;    // see Robot::invalid
-  bool is_idle = false;       // it makes way, and has no goals of its own, served or not: it need not move
-  double weight = 1.0;        // see Robot::weight
-  double goal_age = 0.0;      // seconds, see Robot::goal_age
-  double previous_end = 0.0;  // seconds, see previous_service_end()
-  double direct_way = 0.0;    // metres: straight from `pose` through all goals, those served included
+  bool is_invalid = false;  // see Robot::invalid
+  bool is_idle = false;     // it makes way, and has no goals of its own, served or not: it need not move
+  double weight = 1.0;      // see Robot::weight
+  double goal_age = 0.0;    // seconds, see Robot::goal_age
+  double direct_way = 0.0;  // metres: straight from `pose` through all goals, those served included
 
   /// Whether it stays where its committed actions end.
   bool is_parked() const { return goals.empty(); }

@@ -81,14 +81,6 @@ bool changes_load(const Robot& robot) {
   return any_goal(robot, [&](const Goal& goal) { return load_after(first, goal) != first; });
 }
 
-double fastest_speed(const Robot& robot) {
-  double fastest = robot.linear_speed;
-  for (std::size_t k = 0; k < robot.goal_count(); ++k) {
-    fastest = std::max(fastest, robot.goal_at(k).linear_speed_after.value_or(fastest));
-  }
-  return fastest;
-}
-
 void set_inertia(Action& action, const Robot& robot, const Load& load) {
   if (!action.profile) return;
   action.profile->inertia =

@@ -68,8 +68,6 @@ std::size_t count_of_executable(const Robot& robot, std::span<const Action> acti
 void set_load(Robot& robot, const Load& load);
 /// Whether the loads of the robot differ.
 bool changes_load(const Robot& robot);
-/// Returns the greatest linear speed with any of its loads, metres per second.
-double fastest_speed(const Robot& robot);
 
 /// Completes the profiles of contiguous actions of a robot from t = 0 in its start with its accelerations.
 void set_inertia(std::vector<Action>& actions, const Robot& robot);

@@ -33,32 +33,24 @@ double bias_at(double distance) { return kBiasOfPlaces * (1.0 + distance); }
 
 void widen(OpenGoal& open) {
   open.is_widened = true;
-  const Alternative own = open.poses.front();
   // Bounded: kCircles, kDirections.
   for (int circle = 1; circle <= kCircles; ++circle) {
     const double distance = open.tolerance * circle / kCircles;
     for (int k = 0; k < kDirections; ++k) {
-      Alternative place = own;
-      place.position += distance * unit_vector(2.0 * std::numbers::pi * k / kDirections);
-      place.bias += bias_at(distance);
-      open.poses.push_back(place);
+      const Position way = distance * unit_vector(2.0 * std::numbers::pi * k / kDirections);
+      open.poses.push_back({open.own + way, open.poses.front().theta, bias_at(distance)});
     }
   }
 }
 
-bool choose_place(Robot& robot, OpenGoal& open, const Position& place) {
+bool take_place(OpenGoal& open, const Position& place) {
   const double distance = (place - open.own).norm();
   if (distance > open.tolerance + kContactTolerance) return false;
-  if (distance <= kContactTolerance) {
-    choose(robot, open, 0);
-    return true;
+  open.poses.resize(1);
+  if (distance > kContactTolerance) {
+    open.poses.push_back({place, open.poses.front().theta, bias_at(distance)});
   }
-  Alternative pose = open.poses.front();
-  widen(open);
-  pose.position = place;
-  pose.bias += bias_at(distance);
-  open.poses.push_back(pose);
-  choose(robot, open, open.poses.size() - 1);
+  open.chosen = open.poses.size() - 1;
   return true;
 }
 
@@ -144,9 +136,8 @@ void OpenLoadOnTheWay::execute(const Action& action) {
 
 /// Chooses the pose of the goal that the robot is in, if the goal is open.
 void OpenLoadOnTheWay::settle(std::size_t goal, const Pose& pose) {
-  const auto open = std::lower_bound(open_.begin(), open_.end(), goal,
-                                     [](const OpenGoal& one, std::size_t k) { return one.goal < k; });
-  if (open == open_.end() || open->goal != goal || open->is_told) return;
+  OpenGoal* open = find_open(open_, goal);
+  if (open == nullptr || open->is_told) return;
   // Bounded: a hundred poses.
   for (std::size_t k = 0; k < open->poses.size(); ++k) {
     if (!is_in_pose(pose, {open->poses[k].position, open->poses[k].theta})) continue;

@@ -2,6 +2,7 @@
 
 // Goals that are served at one of several poses, or somewhere near their pose.
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -24,7 +25,8 @@ struct Alternative {
 };
 
 /// A goal of a robot (Robot::goal_at) that is served at one of several poses. The goal itself has the pose
-/// that is chosen. One with a tolerance has its own pose only, until it is widened.
+/// that is chosen. One with a tolerance has its own pose only, and perhaps a place near it that is told,
+/// until it is widened.
 struct OpenGoal {
   std::size_t goal = 0;            // number of the goal
   std::vector<Alternative> poses;  // at least one
@@ -33,10 +35,11 @@ struct OpenGoal {
   bool is_told = false;     // actions that serve the goal do so at the chosen pose, and at no other one
   double tolerance = 0.0;   // metres: how far from its own position it may be served
   Position own{0.0, 0.0};   // with a tolerance: that position
-  bool is_widened = false;  // it has other poses
+  bool is_widened = false;  // see widen()
+
   bool may_widen() const { return tolerance > 0.0 && !is_widened && !is_settled; }
   /// Whether there is nothing to choose.
-  bool is_fixed() const { return is_settled || may_widen(); }
+  bool is_fixed() const { return is_settled || (tolerance > 0.0 && poses.size() == 1); }
 
   const Alternative& choice() const { return poses[chosen]; }
 };
@@ -49,9 +52,18 @@ inline constexpr double kMaxGoalTolerance = 1.0;
 /// takes, but a robot goes on to the one where it has been going. Only for goals that may_widen().
 void widen(OpenGoal& open);
 
-/// Chooses this place for the robot whose goal this is, which has a tolerance; it is widened, unless this is
-/// its own. Returns whether the place is near enough.
-bool choose_place(Robot& robot, OpenGoal& open, const Position& place);
+/// Takes a place, which is told, for a goal with a tolerance that has not been widened, instead of one told
+/// before. It is `chosen` then. Returns whether it is near enough; if not, nothing changes.
+bool take_place(OpenGoal& open, const Position& place);
+
+/// Returns the goal of this number among open goals, ascending; null if it is none of them.
+template <class OpenGoals>
+auto* find_open(OpenGoals& open, std::size_t goal) {
+  const auto found =
+      std::lower_bound(open.begin(), open.end(), goal,
+                       [](const OpenGoal& one, std::size_t number) { return one.goal < number; });
+  return found != open.end() && found->goal == goal ? &*found : nullptr;
+}
 
 /// Chooses a pose, by its index, for the robot whose goal this is.
 void choose(Robot& robot, OpenGoal& open, std::size_t pose);

@@ -310,23 +310,27 @@ bool widen_goals(const std::shared_ptr<const StaticMap>& map, const std::vector<
 namespace {
 
 /// Last goals with a tolerance at whose own pose another robot stays; of two of them, the later one.
-std::vector<OpenPlace> crowded_goals(const std::vector<Robot>& robots, const OpenGoals& open) {
+std::vector<OpenPlace> crowded_goals(const std::vector<Robot>& robots, const OpenGoals& open,
+                                     const StopCondition& stop) {
+  const auto may_move_on = [&](std::size_t k) {
+    return !open[k].empty() && open[k].back().may_widen() && stays_at(robots[k], open[k].back().goal);
+  };
+  std::vector<double> radii;
+  for (const Robot& robot : robots) radii.push_back(last_radius(robot));
   std::vector<OpenPlace> crowded;
   const auto place_of = [](const Robot& robot) {
     return robot.goal && !robot.invalid ? robot.goal->position : robot.committed_end().position;
   };
   for (std::size_t k = 0; k < robots.size(); ++k) {
-    if (open[k].empty() || !open[k].back().may_widen() || !stays_at(robots[k], open[k].back().goal)) continue;
-    const double radius = last_radius(robots[k]);
+    if (!may_move_on(k)) continue;
+    if (stop.met()) break;
     const auto is_crowding = [&](const Robot& other) {
       const auto index = static_cast<std::size_t>(&other - robots.data());
       if (index == k || other.yields()) return false;
-      const bool is_later = index > k && !open[index].empty() && open[index].back().may_widen() &&
-                            stays_at(other, open[index].back().goal);
-      const double allowed = radius + last_radius(other) - kContactTolerance;
+      const double allowed = radii[k] + radii[index] - kContactTolerance;
+      const bool is_later = index > k && may_move_on(index);
       return !is_later && (place_of(other) - place_of(robots[k])).squaredNorm() < allowed * allowed;
     };
-    // Bounded: pairs of robots, as in Problem::create().
     if (std::any_of(robots.begin(), robots.end(), is_crowding)) crowded.push_back({k, open[k].size() - 1});
   }
   return crowded;
@@ -358,7 +362,7 @@ std::vector<WithoutPose> choose_without_search(const std::shared_ptr<const Stati
   widen_goals(map, zones, robots, open, blocked, stop);
   std::vector<OpenPlace> taken = choose_by_distance(robots, open, stop);
   // Bounded: each goal is widened once.
-  while (!stop.met() && widen_goals(map, zones, robots, open, crowded_goals(robots, open), stop)) {
+  while (!stop.met() && widen_goals(map, zones, robots, open, crowded_goals(robots, open, stop), stop)) {
     taken = choose_by_distance(robots, open, stop);
   }
   add(taken, true);

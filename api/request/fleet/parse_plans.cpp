@@ -52,9 +52,8 @@ void parse_choice(const JsonReader& member, const JsonReader& item, ParsedRobot&
   const auto number = member.natural(kGreatestIndex);
   const auto goal = item.find("goal").natural();
   if (!number || !goal) return;
-  const auto open = std::find_if(read.open.begin(), read.open.end(),
-                                 [&](const core::OpenGoal& one) { return one.goal == *goal; });
-  if (open == read.open.end() || open->tolerance > 0.0) {
+  core::OpenGoal* open = core::find_open(read.open, *goal);
+  if (open == nullptr || open->tolerance > 0.0) {
     return member.fault(fault::kOutOfRange, [&] {
       return "Goal " + std::to_string(*goal) + " of robot " + in_quotes(read.robot.id) +
              " has no any_of; leave choice out.";
@@ -75,16 +74,15 @@ void parse_place_of_visit(const JsonReader& member, const JsonReader& item, cons
                           ParsedRobot& read) {
   const auto goal = item.find("goal").natural();
   if (member.is_null() || !goal) return;
-  const auto open = std::find_if(read.open.begin(), read.open.end(), [&](const core::OpenGoal& one) {
-    return one.goal == *goal && one.tolerance > 0.0;
-  });
-  if (open == read.open.end()) {
+  core::OpenGoal* open = core::find_open(read.open, *goal);
+  if (open == nullptr || open->tolerance == 0.0) {
     return member.fault(fault::kOutOfRange, [&] {
       return "Goal " + std::to_string(*goal) + " of robot " + in_quotes(read.robot.id) +
              " has no tolerance; leave place out.";
     });
   }
-  parse_place(member, frame, read.robot, *open);
+  parse_place(member, frame, *open);
+  core::choose(read.robot, *open, open->chosen);
   open->is_settled = true;
 }
 

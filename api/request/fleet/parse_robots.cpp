@@ -112,9 +112,7 @@ std::optional<core::OpenGoal> parse_tolerance(const JsonReader& json, const core
     return std::nullopt;
   }
   core::OpenGoal open{.poses = {{pose.position, pose.theta}}, .tolerance = tolerance, .own = pose.position};
-  core::Robot robot;  // of the goal alone
-  robot.goal = pose;
-  parse_place(place, frame, robot, open);
+  parse_place(place, frame, open);
   open.is_told = static_cast<bool>(place);
   return open;
 }
@@ -178,12 +176,11 @@ void add_goal(const JsonReader& member, const WorldFrame& frame, Quota& quota, P
 
 }  // namespace
 
-void parse_place(const JsonReader& member, const WorldFrame& frame, core::Robot& robot,
-                 core::OpenGoal& open) {
+void parse_place(const JsonReader& member, const WorldFrame& frame, core::OpenGoal& open) {
   constexpr std::array<std::string_view, 2> kMembers{"x", "y"};
   if (!member || member.is_null()) return;
   const auto place = parse_pose(member.object(kMembers), frame);
-  if (!place || core::choose_place(robot, open, place->position)) return;
+  if (!place || core::take_place(open, place->position)) return;
   member.fault(fault::kOutOfRange, [&] {
     return "The place is " + number_text((place->position - open.own).norm()) +
            " m from the goal, whose tolerance is " + number_text(open.tolerance) + " m.";

@@ -38,8 +38,8 @@ std::optional<core::Goal> parse_pose(const JsonReader& pose, const WorldFrame& f
 /// Reads a pose that has no other members.
 std::optional<core::Goal> parse_plain_pose(const JsonReader& pose, const WorldFrame& frame);
 
-/// Reads `place`, which may be absent or null, of a goal with a tolerance, and chooses it for the robot.
-void parse_place(const JsonReader& member, const WorldFrame& frame, core::Robot& robot, core::OpenGoal& open);
+/// Reads `place`, which may be absent or null, of a goal with a tolerance, which takes it.
+void parse_place(const JsonReader& member, const WorldFrame& frame, core::OpenGoal& open);
 
 /// Reads `goal` or `goals` of a robot. Without both, or with an empty list, there are none. `quota` limits
 /// the goals of the request, and the poses of `any_of`.

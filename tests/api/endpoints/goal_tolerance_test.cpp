@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "api/endpoints/endpoints.h"
+#include "core/model/open_goal.h"
 #include "tests/api/support/answers.h"
 #include "tests/api/support/motion_requests.h"
 
@@ -118,6 +119,20 @@ TEST(GoalTolerance, APlaceIsNoFartherThanTheTolerance) {
   EXPECT_THAT(refusal_of(request), HasSubstr("/robots/0/goal/place"));
   request["robots"][0]["goal"].erase("tolerance");
   EXPECT_THAT(refusal_of(request), HasSubstr("no tolerance"));
+}
+
+TEST(GoalTolerance, APlaceThatIsToldAgainTakesThePlaceOfTheOneBefore) {
+  core::OpenGoal open{.poses = {{{1.0, 1.0}, 0.5}}, .tolerance = 0.5, .own = {1.0, 1.0}};
+  // Plans may tell the same goal any number of times.
+  for (int k = 0; k < 1000; ++k) ASSERT_TRUE(core::take_place(open, {1.2, 1.0}));
+  EXPECT_EQ(open.poses.size(), 2U);
+  EXPECT_EQ(open.choice().position, core::Position(1.2, 1.0));
+  EXPECT_EQ(open.choice().theta, 0.5);
+  EXPECT_FALSE(core::take_place(open, {1.6, 1.0})) << "it is too far";
+  EXPECT_EQ(open.choice().position, core::Position(1.2, 1.0));
+  ASSERT_TRUE(core::take_place(open, {1.0, 1.0}));
+  EXPECT_EQ(open.poses.size(), 1U);
+  EXPECT_TRUE(open.may_widen());
 }
 
 TEST(GoalTolerance, TheCheckHoldsThePlanToThePlaceThatItNames) {

@@ -188,8 +188,8 @@ class Shown {
   const core::PlanTask task_{std::get<core::Problem>(core::Problem::create(core::OccupancyGrid(1, 1, 1.0), {},
                                                                            {}, core::StopCondition::never())),
                              {}};
-  const core::Plan plan_;
-  const std::optional<core::VerifyReport> report_;
+  const core::Plan plan_ = {};
+  const std::optional<core::VerifyReport> report_ = std::nullopt;
   const core::PlanTimes times_{core::StopCondition::Clock::now()};
   const core::StopCondition planning_ = core::StopCondition::never();
 };
