@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <deque>
 #include <limits>
-#include <string_view>
-#include <unordered_map>
 #include <utility>
 
+#include "core/moves/configuration_search.h"
 #include "core/moves/step_lines.h"
 
 namespace fleetplan::core {
@@ -15,9 +13,8 @@ namespace {
 
 /// The most configurations of a search, places of robots in all of them together, and constraints: 40, 64 and
 /// 24 MB. A thousand robots in corridors take a tenth of the places.
-constexpr std::size_t kMaxNodes = 100'000;
-constexpr std::size_t kMaxPlaces = 4'000'000;
-constexpr std::size_t kMaxConstraints = 1'000'000;
+constexpr ConfigurationLimits kLimits{
+    .max_nodes = 100'000, .max_places = 4'000'000, .max_constraints = 1'000'000};
 /// How often the search is tried, each time with other random numbers.
 constexpr int kMaxTries = 4;
 /// The most vertices of a corridor that are looked at for robots that have to pass each other.
@@ -128,15 +125,6 @@ StepCosts against_traffic(const StepProblem& problem, const StepDistances& alone
   return costs;
 }
 
-/// A robot that has to be at a vertex in the next configuration, together with those of the constraint
-/// before. The first one of a configuration binds nobody.
-struct Constraint {
-  std::size_t before = 0;   // its place among the constraints of the configuration
-  std::uint32_t depth = 0;  // the number of robots that are bound
-  std::uint32_t robot = 0;
-  int vertex = StepProblem::kNone;
-};
-
 /// Makes the next configuration: Priority Inheritance with Backtracking. A robot that goes to a vertex makes
 /// the one that is there go away first, as if that had its priority.
 class NextConfiguration {
@@ -152,7 +140,7 @@ class NextConfiguration {
   /// By these distances robots choose where to go. None if the constraint allows none, if PIBT finds none
   /// with it, or if the stop condition is met.
   std::optional<Configuration> make(const Configuration& from, const std::vector<std::size_t>& order,
-                                    const std::vector<Constraint>& constraints, std::size_t constraint,
+                                    const std::vector<StepConstraint>& constraints, std::size_t constraint,
                                     const StepDistances& distances) {
     from_ = &from;
     distances_ = &distances;
@@ -171,11 +159,11 @@ class NextConfiguration {
   static constexpr std::int32_t kNobody = -1;
   static std::size_t index(int vertex) { return static_cast<std::size_t>(vertex); }
 
-  bool bind(const std::vector<Constraint>& constraints, std::size_t last) {
-    for (std::size_t k = last; constraints[k].vertex != StepProblem::kNone; k = constraints[k].before) {
-      const Constraint& bound = constraints[k];
-      if (next_[index(bound.vertex)] != kNobody || exchanges(bound.robot, bound.vertex)) return false;
-      set(bound.robot, bound.vertex);
+  bool bind(const std::vector<StepConstraint>& constraints, std::size_t last) {
+    for (std::size_t k = last; constraints[k].place != StepConstraint::kNone; k = constraints[k].before) {
+      const StepConstraint& bound = constraints[k];
+      if (next_[index(bound.place)] != kNobody || exchanges(bound.robot, bound.place)) return false;
+      set(bound.robot, bound.place);
     }
     return true;
   }
@@ -364,129 +352,51 @@ class NextConfiguration {
   std::vector<bool> is_asked_;  // by robot: waits for another one to go away
 };
 
-/// A configuration of the search, and the constraints that have not been tried there yet.
-struct Node {
-  Configuration at;
-  std::vector<std::int32_t> waited;  // by robot: steps since it was at its goal
-  std::vector<std::size_t> order;    // of PIBT: those that have waited longest first
-  std::vector<Constraint> made;      // in the order in which they are tried
-  std::size_t next = 0;              // of `made`
-  const Node* before = nullptr;
-  std::size_t steps = 0;  // from the starts
-};
-
-std::string_view bytes_of(const Configuration& configuration) {
-  return {reinterpret_cast<const char*>(configuration.data()), configuration.size() * sizeof(int)};
-}
-
-class Lacam {
+/// A fleet on a graph, see ConfigurationSearch.
+class FleetOnGraph {
  public:
   /// `alone` are the distances by kStep, `with_traffic` those by against_traffic().
-  Lacam(const StepProblem& problem, const StepDistances& alone, const StepDistances& with_traffic,
-        Random& random, const StopCondition& stop)
-      : problem_(problem),
-        alone_(alone),
-        with_traffic_(with_traffic),
-        random_(random),
-        stop_(stop),
-        next_(problem, random, stop) {
+  FleetOnGraph(const StepProblem& problem, const StepDistances& alone, const StepDistances& with_traffic,
+               Random& random, const StopCondition& stop)
+      : problem_(problem), alone_(alone), with_traffic_(with_traffic), next_(problem, random, stop) {
     for (std::size_t i = 0; i < problem.movers.size(); ++i) {
       goals_.push_back(problem.movers[i].goal);
-      longest_ = std::max<std::size_t>(longest_, alone.of(i, problem.movers[i].start) / kStep);
+      longest_ = std::max<std::size_t>(longest_, far(i) / kStep);
     }
   }
 
-  std::optional<std::vector<Configuration>> run() {
+  Configuration starts() const {
     Configuration starts;
     for (const StepProblem::Mover& mover : problem_.movers) starts.push_back(mover.start);
-    add(std::move(starts), nullptr);
-    while (!open_.empty() && constraints_ < kMaxConstraints && !stop_.met()) {
-      Node& node = *open_.back();
-      if (node.at == goals_) return path_to(node);
-      if (node.next == node.made.size()) {
-        open_.pop_back();
-        continue;
-      }
-      const std::size_t constraint = node.next++;
-      bind_one_more(node, constraint);
-      // In the end, those who still wait for each other have to pass against the traffic.
-      const StepDistances& distances = node.steps < longest_ ? with_traffic_ : alone_;
-      std::optional<Configuration> made = next_.make(node.at, node.order, node.made, constraint, distances);
-      if (!made) continue;
-      const auto known = known_.find(bytes_of(*made));
-      if (known != known_.end()) {
-        open_.push_back(known->second);
-      } else if (nodes_.size() >= kMaxNodes || nodes_.size() * problem_.movers.size() >= kMaxPlaces) {
-        return std::nullopt;
-      } else {
-        add(std::move(*made), &node);
-      }
+    return starts;
+  }
+  bool is_end(const Configuration& at) const { return at == goals_; }
+  bool is_home(std::size_t robot, int vertex) const { return vertex == goals_[robot]; }
+  bool comes_before(std::size_t a, std::size_t b) const { return far(a) != far(b) ? far(a) > far(b) : a < b; }
+
+  template <class Visitor>
+  void for_each_step(std::size_t robot, int vertex, const Visitor& visit) const {
+    for (const int next : problem_.graphs[problem_.movers[robot].graph][static_cast<std::size_t>(vertex)]) {
+      if (next != StepProblem::kNone) visit(next);
     }
-    return std::nullopt;
   }
 
-  /// Whether the search has ended because there is no plan.
-  bool has_no_plan() const { return open_.empty(); }
+  std::optional<Configuration> next(const Configuration& from, const std::vector<std::size_t>& order,
+                                    const std::vector<StepConstraint>& constraints, std::size_t constraint,
+                                    std::size_t depth) {
+    // In the end, those who still wait for each other have to pass against the traffic.
+    return next_.make(from, order, constraints, constraint, depth < longest_ ? with_traffic_ : alone_);
+  }
 
  private:
-  void add(Configuration at, const Node* before) {
-    Node& node = nodes_.emplace_back();
-    node.at = std::move(at);
-    node.before = before;
-    node.steps = before == nullptr ? 0 : before->steps + 1;
-    node.made.emplace_back();
-    node.waited.resize(node.at.size());
-    node.order.resize(node.at.size());
-    for (std::size_t i = 0; i < node.at.size(); ++i) {
-      node.waited[i] = node.at[i] == goals_[i] || before == nullptr ? 0 : before->waited[i] + 1;
-      node.order[i] = i;
-    }
-    std::sort(node.order.begin(), node.order.end(), [&](std::size_t a, std::size_t b) {
-      if (node.waited[a] != node.waited[b]) return node.waited[a] > node.waited[b];
-      const auto far_a = alone_.of(a, problem_.movers[a].start);
-      const auto far_b = alone_.of(b, problem_.movers[b].start);
-      return far_a != far_b ? far_a > far_b : a < b;
-    });
-    known_.emplace(bytes_of(node.at), &node);
-    open_.push_back(&node);
-  }
-
-  /// Makes the constraints that bind the next robot, too: to its place or to a neighbour of it.
-  void bind_one_more(Node& node, std::size_t constraint) {
-    const std::uint32_t depth = node.made[constraint].depth;
-    if (depth == node.at.size()) return;
-    const std::size_t robot = node.order[depth];
-    const int here = node.at[robot];
-    std::vector<int> vertices{here};
-    for (const int vertex : problem_.graphs[problem_.movers[robot].graph][static_cast<std::size_t>(here)]) {
-      if (vertex != StepProblem::kNone) vertices.push_back(vertex);
-    }
-    random_.shuffle(vertices);
-    for (const int vertex : vertices) {
-      node.made.push_back({constraint, depth + 1, static_cast<std::uint32_t>(robot), vertex});
-    }
-    constraints_ += vertices.size();
-  }
-
-  static std::vector<Configuration> path_to(const Node& last) {
-    std::vector<Configuration> path;
-    for (const Node* node = &last; node != nullptr; node = node->before) path.push_back(node->at);
-    std::reverse(path.begin(), path.end());
-    return path;
-  }
+  std::uint16_t far(std::size_t robot) const { return alone_.of(robot, problem_.movers[robot].start); }
 
   const StepProblem& problem_;
   const StepDistances& alone_;
   const StepDistances& with_traffic_;
-  Random& random_;
-  const StopCondition& stop_;
   NextConfiguration next_;
   Configuration goals_;
   std::size_t longest_ = 0;  // steps of the longest way alone
-  std::deque<Node> nodes_;   // addresses stay
-  std::unordered_map<std::string_view, Node*> known_;
-  std::vector<Node*> open_;  // the last one is expanded
-  std::size_t constraints_ = 0;
 };
 
 }  // namespace
@@ -505,9 +415,10 @@ std::optional<std::vector<Configuration>> plan_steps(const StepProblem& problem,
   const StepCosts costs = against_traffic(problem, alone, even, stop);
   const StepDistances& first = with_traffic.find(problem, costs, stop) ? with_traffic : alone;
   for (int k = 0; k < kMaxTries && !stop.met(); ++k) {
-    Lacam search(problem, alone, first, random, stop);
+    FleetOnGraph fleet(problem, alone, first, random, stop);
+    ConfigurationSearch search(fleet, kLimits, random, stop);
     auto plan = search.run();
-    if (plan || search.has_no_plan()) return plan;
+    if (plan || search.has_no_way()) return plan;
   }
   return std::nullopt;
 }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/moves/configuration_search.h"
 #include "core/runtime/random.h"
 #include "core/runtime/stop_condition.h"
 
@@ -29,9 +30,6 @@ struct StepProblem {
   std::vector<Neighbours> graphs;  // by kind of robot; all have the same vertices
   std::vector<Mover> movers;
 };
-
-/// Where all robots are, by robot.
-using Configuration = std::vector<int>;
 
 /// Plans all robots at once: by LaCAM (Okumura, AAAI 2023), a search over configurations that makes the next
 /// one with PIBT (Okumura et al., Artificial Intelligence, 2022), lazily trying all others. So it finds a

@@ -4,13 +4,11 @@
 #include <cstdint>
 #include <cstdlib>
 #include <map>
-#include <new>
 #include <utility>
 
 #include "core/geometry/disk_motion.h"
 #include "core/geometry/tolerance.h"
 #include "core/moves/lacam.h"
-#include "core/runtime/budget.h"
 
 namespace fleetplan::core {
 namespace {
@@ -268,9 +266,9 @@ class TimedSteps {
 
 }  // namespace
 
-std::optional<std::vector<Trajectory>> plan_in_steps(const FleetReservations& reservations,
-                                                     const std::vector<std::size_t>& robots, Random& random,
-                                                     const StopCondition& stop) {
+std::optional<std::vector<Trajectory>> plan_on_lattice(const FleetReservations& reservations,
+                                                       const std::vector<std::size_t>& robots, Random& random,
+                                                       const StopCondition& stop) {
   const auto problem = StepGraph(reservations, robots).make(stop);
   if (!problem) return std::nullopt;
   const auto configurations = plan_steps(*problem, random, stop);
@@ -285,42 +283,6 @@ std::optional<std::vector<Trajectory>> plan_in_steps(const FleetReservations& re
     if (trajectories[k].cost >= reservations.instance().views(robots[k]).longest_plan()) return std::nullopt;
   }
   return trajectories;
-}
-
-StepsOutcome follow_steps(FleetReservations& reservations, const std::vector<std::size_t>& order,
-                          const std::vector<std::size_t>& hopeless, Random& random, const StopCondition& stop,
-                          ProgressReport& progress) {
-  std::vector<bool> moves(reservations.instance().size(), false);
-  for (const std::size_t robot : order) moves[robot] = true;
-  for (const std::size_t robot : hopeless) moves[robot] = false;
-  std::vector<std::size_t> robots;
-  for (const std::size_t robot : order) {
-    if (moves[robot]) robots.push_back(robot);
-  }
-  for (std::size_t i = 0; i < moves.size(); ++i) {
-    if (!moves[i] && reservations.trajectory(i))
-      return StepsOutcome::none;  // its motion is not known to steps
-  }
-  const StopCondition part = after_share(stop, budget::kShareOfSteps);
-  const FleetReservations::Snapshot before = reservations.snapshot();
-  try {
-    auto trajectories = plan_in_steps(reservations, robots, random, part);
-    if (!trajectories) return part.met() ? StepsOutcome::cut_off : StepsOutcome::none;
-    for (const std::size_t robot : robots) reservations.remove(robot);
-    bool is_free = true;
-    for (std::size_t k = 0; k < robots.size() && is_free; ++k) {
-      is_free = !part.met() && reservations.conflicting_robots(robots[k], (*trajectories)[k]).empty();
-      if (is_free) reservations.follow(robots[k], std::move((*trajectories)[k]));
-    }
-    if (is_free) {
-      progress.next_attempt();
-      progress.update();
-      return StepsOutcome::followed;
-    }
-  } catch (const std::bad_alloc&) {  // not granted to the job
-  }
-  reservations.restore(before);
-  return part.met() ? StepsOutcome::cut_off : StepsOutcome::none;
 }
 
 }  // namespace fleetplan::core

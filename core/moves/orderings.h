@@ -13,7 +13,7 @@
 #include "core/compile/instance.h"
 #include "core/fleet/plan_state.h"
 #include "core/fleet/progress_report.h"
-#include "core/moves/lattice_steps.h"
+#include "core/moves/fleet_steps.h"
 #include "core/runtime/random.h"
 #include "core/runtime/stop_condition.h"
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/moves/expected_arrivals.h"
-#include "core/moves/lattice_steps.h"
+#include "core/moves/fleet_steps.h"
 #include "core/moves/making_room.h"
 #include "core/moves/orderings.h"
 #include "core/moves/repair.h"
@@ -76,6 +76,7 @@ class PrioritizedPlanning {
         time_(time),
         progress_(progress),
         order_(initial_order(state.instance(), movers, random)),
+        steps_(state.reservations(), random, progress),
         stop_(time.first_part) {
     if (is_by_arrival()) order_by_arrival();
     const bool may_stop = state.instance().options().horizon && !order_.empty();
@@ -124,13 +125,14 @@ class PrioritizedPlanning {
     }
     if (!is_by_arrival() && !state_.instance().options().horizon &&
         differ_in_size(state_.instance(), order_)) {
-      if (auto result = repair_unless(kMaxFailures, state_, order_, random_, stop_, progress_, keep_plan)) {
+      if (auto result =
+              repair_unless(kMaxFailures, state_, order_, steps_, random_, stop_, progress_, keep_plan)) {
         return std::move(*result);
       }
       result_.attempts += kMaxFailures;
       order_by_arrival();
     }
-    return repair_all(state_, order_, random_, stop_, progress_, keep_plan);
+    return repair_all(state_, order_, steps_, random_, stop_, progress_, keep_plan);
   }
 
   /// Whether robots come in the order of their expected arrivals from the beginning.
@@ -167,8 +169,7 @@ class PrioritizedPlanning {
   }
 
   bool steps_succeed(const std::vector<std::size_t>& staying, const StopCondition& stop) {
-    const StepsOutcome outcome =
-        follow_steps(state_.reservations(), order_, staying, random_, stop, progress_);
+    const StepsOutcome outcome = steps_.follow(order_, staying, stop);
     result_.cut_off = result_.cut_off || outcome == StepsOutcome::cut_off;
     if (outcome == StepsOutcome::followed) ++result_.attempts;
     return outcome == StepsOutcome::followed;
@@ -245,7 +246,7 @@ class PrioritizedPlanning {
       for (const std::size_t robot : order) state_.reservations().remove(robot);
       for (const std::size_t robot : hopeless) state_.reservations().stay_in_place(robot);
       random_.shuffle(order);
-      OrderingResult ordering = repair_all(state_, order, random_, time_.all, progress_);
+      OrderingResult ordering = repair_all(state_, order, steps_, random_, time_.all, progress_);
       result_.attempts += ordering.attempts;
       ordering.given_up.insert(ordering.given_up.end(), hopeless.begin(), hopeless.end());
       hopeless.insert(hopeless.end(), ordering.hopeless.begin(), ordering.hopeless.end());
@@ -259,6 +260,7 @@ class PrioritizedPlanning {
   const PlanningTime& time_;
   ProgressReport& progress_;
   PriorityOrder order_;
+  FleetSteps steps_;
   StopCondition stop_;  // ends the first attempt
   std::optional<PlanSnapshot> best_;
   PrioritizedResult result_;

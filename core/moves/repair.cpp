@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "core/moves/ejection_search.h"
-#include "core/moves/lattice_steps.h"
 #include "core/moves/yielding.h"
 
 namespace fleetplan::core {
@@ -57,12 +56,14 @@ constexpr int kMaxExtraRobots = 12;
 
 class Repair {
  public:
-  Repair(PlanState& state, PriorityOrder order, Random& random, const StopCondition& stop,
+  /// `steps`: null if there are none.
+  Repair(PlanState& state, PriorityOrder order, FleetSteps* steps, Random& random, const StopCondition& stop,
          ProgressReport& progress, const OnStop& on_stop)
       : state_(state),
         reservations_(state.reservations()),
         any_yields_(any_yields(state.instance())),
         order_(std::move(order)),
+        steps_(steps),
         random_(random),
         stop_(stop),
         progress_(progress),
@@ -86,9 +87,6 @@ class Repair {
       if (!reservations_.trajectory(robot)) postpone(robot);
     }
   }
-
-  /// Plans in steps would give up all plans that are kept.
-  void do_without_steps() { tried_steps_ = true; }
 
   /// Returns none as soon as so many attempts have failed.
   std::optional<OrderingResult> run(std::int64_t max_failures = kAnyNumber) {
@@ -132,7 +130,7 @@ class Repair {
 
   /// Whether failures may have no end.
   bool is_stuck() const {
-    if (tried_steps_ || result_.attempts < 2) return false;
+    if (steps_ == nullptr || result_.attempts < 2) return false;
     const auto robots = static_cast<std::int64_t>(order_.size());
     return result_.attempts > robots + kFailuresBeforeSteps ||
            state_.expansions() - expansions_ > robots * kExpansionsBeforeSteps;
@@ -140,9 +138,7 @@ class Repair {
 
   /// Returns whether all robots but the hopeless ones have new trajectories; if not, nothing has changed.
   bool plans_all_in_steps() {
-    tried_steps_ = true;
-    const StepsOutcome outcome =
-        follow_steps(reservations_, order_, result_.hopeless, random_, stop_, progress_);
+    const StepsOutcome outcome = std::exchange(steps_, nullptr)->follow(order_, result_.hopeless, stop_);
     result_.steps = outcome;
     if (outcome != StepsOutcome::followed) return false;
     ++result_.attempts;
@@ -366,6 +362,7 @@ class Repair {
   FleetReservations& reservations_;
   const bool any_yields_;
   const PriorityOrder order_;
+  FleetSteps* steps_;  // null if there are none, or none any more
   Random& random_;
   const StopCondition& stop_;
   ProgressReport& progress_;
@@ -378,25 +375,24 @@ class Repair {
   std::vector<bool> cannot_make_way_;         // by robot: it was asked, and failed
   std::optional<std::size_t> keeps_its_way_;  // a robot that gives way to nobody
   EjectionSearch ejection_;
-  const std::int64_t expansions_;  // before these repairs
-  bool tried_steps_ = false;
+  const std::int64_t expansions_;                           // before these repairs
   std::set<std::pair<std::int64_t, std::size_t>> pending_;  // rank, robot
   OrderingResult result_;
 };
 
 }  // namespace
 
-OrderingResult repair_all(PlanState& state, const PriorityOrder& order, Random& random,
+OrderingResult repair_all(PlanState& state, const PriorityOrder& order, FleetSteps& steps, Random& random,
                           const StopCondition& stop, ProgressReport& progress, const OnStop& on_stop) {
-  return *repair_unless(kAnyNumber, state, order, random, stop, progress, on_stop);
+  return *repair_unless(kAnyNumber, state, order, steps, random, stop, progress, on_stop);
 }
 
 std::optional<OrderingResult> repair_unless(std::int64_t max_failures, PlanState& state,
-                                            const PriorityOrder& order, Random& random,
+                                            const PriorityOrder& order, FleetSteps& steps, Random& random,
                                             const StopCondition& stop, ProgressReport& progress,
                                             const OnStop& on_stop) {
   progress.next_attempt();
-  Repair repair(state, order, random, stop, progress, on_stop);
+  Repair repair(state, order, &steps, random, stop, progress, on_stop);
   repair.postpone_all();
   return repair.run(max_failures);
 }
@@ -404,9 +400,8 @@ std::optional<OrderingResult> repair_unless(std::int64_t max_failures, PlanState
 OrderingResult repair_around(PlanState& state, const PriorityOrder& order, Random& random,
                              const StopCondition& stop, ProgressReport& progress, const OnStop& on_stop) {
   progress.next_attempt();
-  Repair repair(state, order, random, stop, progress, on_stop);
+  Repair repair(state, order, nullptr, random, stop, progress, on_stop);
   repair.postpone_those_without_trajectory();
-  repair.do_without_steps();
   return *repair.run();
 }
 

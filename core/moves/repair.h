@@ -7,6 +7,7 @@
 
 #include "core/fleet/plan_state.h"
 #include "core/fleet/progress_report.h"
+#include "core/moves/fleet_steps.h"
 #include "core/moves/orderings.h"
 #include "core/runtime/random.h"
 #include "core/runtime/stop_condition.h"
@@ -29,18 +30,21 @@ namespace fleetplan::core {
 /// planned past those that yield (Robot::yields), as if they left when they have served their goals; if it
 /// gains more by that than they lose, those that are in its way are planned again. So nobody moves for
 /// nothing. One that cannot make way stays.
-OrderingResult repair_all(PlanState& state, const PriorityOrder& order, Random& random,
+///
+/// If failures may have no end, all robots are planned in `steps`.
+OrderingResult repair_all(PlanState& state, const PriorityOrder& order, FleetSteps& steps, Random& random,
                           const StopCondition& stop, ProgressReport& progress,
                           const OnStop& on_stop = nullptr);
 
 /// Plans as repair_all() does. Returns none as soon as so many attempts have failed.
 std::optional<OrderingResult> repair_unless(std::int64_t max_failures, PlanState& state,
-                                            const PriorityOrder& order, Random& random,
+                                            const PriorityOrder& order, FleetSteps& steps, Random& random,
                                             const StopCondition& stop, ProgressReport& progress,
                                             const OnStop& on_stop);
 
 /// Plans the robots of `order` as repair_all() does, from a state in which some of them follow trajectories
-/// already. They keep these until a robot with a higher priority needs their way.
+/// already. They keep these until a robot with a higher priority needs their way. Plans in steps would give
+/// up all of them, so there are none.
 OrderingResult repair_around(PlanState& state, const PriorityOrder& order, Random& random,
                              const StopCondition& stop, ProgressReport& progress,
                              const OnStop& on_stop = nullptr);

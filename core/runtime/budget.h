@@ -110,6 +110,8 @@ inline constexpr double kShareBeforeSafePlan = 0.5;
 inline constexpr double kShareOfOrder = 0.2;
 /// The share that steps of the whole fleet may take before something else is tried.
 inline constexpr double kShareOfSteps = 0.4;
+/// The share of that for steps along the rows and columns of a lattice, if they do not suffice.
+inline constexpr double kShareOfLattice = 0.5;
 
 // 6. Safe plan.
 

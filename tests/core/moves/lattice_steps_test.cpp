@@ -16,7 +16,7 @@ using support::robot_at;
 
 bool plans(const Planning& p, const std::vector<std::size_t>& robots) {
   Random random(0);
-  return plan_in_steps(p.reservations, robots, random, p.never).has_value();
+  return plan_on_lattice(p.reservations, robots, random, p.never).has_value();
 }
 
 OccupancyGrid hall() {
@@ -58,16 +58,6 @@ TEST(LatticeSteps, RefusesFleetsBesideCommittedMotion) {
   EXPECT_FALSE(plans(p, {0})) << "of a robot without a goal";
 }
 
-TEST(LatticeSteps, FollowingThemChangesNothingWhenStopped) {
-  Planning p(hall(), {robot_at(0.5, 0.5).to(5.5, 0.5), robot_at(5.5, 0.5).to(0.5, 0.5)});
-  p.reservations.reserve_place(0, 3.0);
-  p.reservations.stay_in_place(1);
-  EXPECT_EQ(follow_steps(p.reservations, {0, 1}, {}, p.random, met(), p.progress), StepsOutcome::cut_off);
-  EXPECT_FALSE(p.reservations.trajectory(0));
-  EXPECT_EQ(p.reservations.holds_place_for(0), 3.0);
-  EXPECT_EQ(p.reservations.holds_place_for(1), kForever);
-}
-
 TEST(LatticeSteps, RefusesFleetsAmongMovingObstacles) {
   MovingObstacle obstacle;
   obstacle.radius = 0.1;
@@ -75,23 +65,6 @@ TEST(LatticeSteps, RefusesFleetsAmongMovingObstacles) {
   const Planning p(
       support::make_problem(hall(), {robot_at(0.5, 0.5).to(4.5, 0.5)}, {.obstacles = {obstacle}}));
   EXPECT_FALSE(plans(p, {0}));
-}
-
-TEST(LatticeSteps, GoRoundRobotsThatStay) {
-  Planning p(hall(), {robot_at(0.5, 1.5).to(5.5, 1.5), robot_at(2.5, 1.5), robot_at(3.6, 0.4)});
-  p.reservations.stay_in_place(1);
-  p.reservations.stay_in_place(2);
-  ASSERT_EQ(follow_steps(p.reservations, {0}, {}, p.random, p.never, p.progress), StepsOutcome::followed);
-  support::expect_safe(p.reservations);
-}
-
-TEST(LatticeSteps, FollowingThemChangesNothingWhereTheyCannotBe) {
-  Planning p(hall(), {robot_at(0.5, 0.5).to(5.5, 0.5), robot_at(0.5, 1.5).to(5.5, 1.5)});
-  p.reservations.follow(1, through({{0.5, 1.5}, {5.5, 1.5}}));
-  EXPECT_EQ(follow_steps(p.reservations, {0}, {}, p.random, p.never, p.progress), StepsOutcome::none)
-      << "another robot is under way";
-  EXPECT_FALSE(p.reservations.trajectory(0));
-  EXPECT_TRUE(p.reservations.trajectory(1));
 }
 
 /// A random fleet on the lattice: of different radii, speeds, accelerations and headings.
@@ -145,7 +118,7 @@ TEST(LatticeSteps, RandomFleetsNeverMeet) {
     for (std::size_t i = 0; i < p.instance.size(); ++i) {
       if (!p.instance.problem().robots()[i].goal) p.reservations.stay_in_place(i);
     }
-    auto trajectories = plan_in_steps(p.reservations, robots, p.random, p.never);
+    auto trajectories = plan_on_lattice(p.reservations, robots, p.random, p.never);
     if (!trajectories) continue;  // walls may part them
     ++planned;
     for (std::size_t k = 0; k < robots.size(); ++k) p.reservations.follow(robots[k], (*trajectories)[k]);

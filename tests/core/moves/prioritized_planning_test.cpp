@@ -157,7 +157,7 @@ TEST(Prioritized, TriesOtherOrdersAfterARobotWasGivenUp) {
   Planning p = two_in_a_corridor();
   Planning once = two_in_a_corridor();
   const OrderingResult first =
-      repair_all(once.state, {0, 1, 2, 3, 4}, once.random, once.never, once.progress);
+      repair_all(once.state, {0, 1, 2, 3, 4}, once.steps, once.random, once.never, once.progress);
   const auto result = run(p);
   EXPECT_EQ(robots_of(result), (Robots{0, 1})) << "each is in the other's way";
   EXPECT_GT(result.attempts, 2 * first.attempts);

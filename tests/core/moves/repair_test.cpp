@@ -26,7 +26,7 @@ Planning blocked_entrance() {
 TEST(Repair, RaisesAFailedRobotAndReplansOnlyConflictingRobots) {
   Planning p = blocked_entrance();
   Random random(7);
-  const OrderingResult result = repair_all(p.state, {2, 0, 1}, random, p.never, p.progress);
+  const OrderingResult result = repair_all(p.state, {2, 0, 1}, p.steps, random, p.never, p.progress);
   EXPECT_TRUE(result.unsolved.empty());
   EXPECT_TRUE(result.given_up.empty());
   EXPECT_EQ(result.attempts, 2) << "robot 1 failed once";
@@ -43,7 +43,7 @@ TEST(Repair, GivesUpARobotWithoutAPathAmongRobotsThatStay) {
              {robot_at(4.5, 1.5), robot_at(0.5, 1.5).to(8.5, 1.5), robot_at(8.5, 0.5).to(5.5, 0.5)});
   p.reservations.stay_in_place(0);
   Random random(7);
-  const OrderingResult result = repair_all(p.state, {1, 2}, random, p.never, p.progress);
+  const OrderingResult result = repair_all(p.state, {1, 2}, p.steps, random, p.never, p.progress);
   EXPECT_EQ(result.given_up, Robots{1});
   EXPECT_TRUE(result.unsolved.empty());
   EXPECT_TRUE(p.reservations.trajectory(2));
@@ -56,7 +56,7 @@ TEST(Repair, BreaksACycleOfRaisedRobotsByAStartDelay) {
                                  "........."}),
              {robot_at(0.5, 0.5).to(8.5, 0.5), robot_at(8.5, 0.5, 3.0).to(0.5, 0.5)});
   Random random(7);
-  const OrderingResult result = repair_all(p.state, {0, 1}, random, p.never, p.progress);
+  const OrderingResult result = repair_all(p.state, {0, 1}, p.steps, random, p.never, p.progress);
   EXPECT_TRUE(result.unsolved.empty());
   EXPECT_GT(result.attempts, 4) << "a delay is tried only after several failures";
   expect_safe(p.reservations);
@@ -71,7 +71,7 @@ TEST(Repair, GivesUpARobotThatKeepsFailing) {
       {robot_at(0.5, 2.5).to(6.5, 2.5), robot_at(6.5, 2.5, 3.0).to(0.5, 2.5), robot_at(0.5, 0.5).to(4.5, 0.5),
        robot_at(1.5, 0.5).to(6.5, 0.5), robot_at(3.5, 0.5).to(8.5, 0.5)});
   Random random(7);
-  const OrderingResult result = repair_all(p.state, {0, 1, 2, 3, 4}, random, p.never, p.progress);
+  const OrderingResult result = repair_all(p.state, {0, 1, 2, 3, 4}, p.steps, random, p.never, p.progress);
   EXPECT_TRUE(result.unsolved.empty());
   EXPECT_EQ(result.given_up, (Robots{1, 0})) << "each blocks the other";
   for (const std::size_t robot : {2u, 3u, 4u}) EXPECT_TRUE(p.reservations.trajectory(robot));
@@ -100,7 +100,7 @@ TEST(Repair, PlansACrowdThatFillsTwoFifthsOfTheFloor) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     Planning p(OccupancyGrid(12, 12, 1.0), crowd(12, 12, 58, seed));
     Random random(7);
-    const OrderingResult result = repair_all(p.state, p.movers(), random, p.never, p.progress);
+    const OrderingResult result = repair_all(p.state, p.movers(), p.steps, random, p.never, p.progress);
     EXPECT_TRUE(result.unsolved.empty()) << "seed " << seed;
     EXPECT_TRUE(result.given_up.empty()) << "seed " << seed;
     EXPECT_EQ(p.reservations.planned_count(), 58u) << "seed " << seed;
@@ -112,7 +112,7 @@ TEST(Repair, PlansACrowdThatFillsTwoFifthsOfTheFloor) {
 TEST(Repair, ReturnsUnsolvedRobotsByPriorityWhenStopped) {
   Planning p = blocked_entrance();
   Random random(7);
-  const OrderingResult result = repair_all(p.state, {2, 0, 1}, random, met(), p.progress);
+  const OrderingResult result = repair_all(p.state, {2, 0, 1}, p.steps, random, met(), p.progress);
   EXPECT_EQ(result.unsolved, (Robots{2, 0, 1}));
   EXPECT_TRUE(result.cut_off);
 }

@@ -10,6 +10,7 @@
 #include "core/compile/instance.h"
 #include "core/fleet/plan_state.h"
 #include "core/fleet/progress_report.h"
+#include "core/moves/fleet_steps.h"
 #include "core/runtime/executor.h"
 #include "core/runtime/random.h"
 #include "core/runtime/stop_condition.h"
@@ -52,6 +53,7 @@ struct Planning {
   StopCondition never = StopCondition::never();
   CallerThread callers_thread;
   ProgressReport progress{reservations, nullptr};  // no observer
+  FleetSteps steps{reservations, random, progress};
 };
 
 /// The lower bound of a robot with a goal, obstacles ignored.

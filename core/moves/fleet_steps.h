@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/fleet/fleet_reservations.h"
+#include "core/fleet/progress_report.h"
+#include "core/model/trajectory.h"
+#include "core/moves/place_steps.h"
+#include "core/runtime/random.h"
+#include "core/runtime/stop_condition.h"
+
+namespace fleetplan::core {
+
+/// Whether robots follow a plan in steps; if not, whether because the time was over, so that there may be
+/// one.
+enum class StepsOutcome : std::uint8_t { followed, none, cut_off };
+
+/// Plans of the whole fleet in steps: along the rows and columns of a lattice if that suffices, and otherwise
+/// over places. What it has searched it keeps for the next time that the same robots are asked for.
+class FleetSteps {
+ public:
+  /// All arguments outlive this object.
+  FleetSteps(FleetReservations& reservations, Random& random, ProgressReport& progress)
+      : reservations_(reservations), random_(random), progress_(progress) {}
+
+  /// Plans the robots of `order`, which no others but those that stay share the map with, in steps, except
+  /// for the `hopeless` ones, which stay. If all of them have a plan in which nobody meets, they follow it;
+  /// if not, no reservation has changed. Takes a part of the time until `stop`.
+  StepsOutcome follow(const std::vector<std::size_t>& order, const std::vector<std::size_t>& hopeless,
+                      const StopCondition& stop);
+
+ private:
+  StepsOutcome follow_until(const std::vector<std::size_t>& robots, const StopCondition& stop);
+  bool follow_all(const std::vector<std::size_t>& robots, std::vector<Trajectory> trajectories,
+                  const StopCondition& stop);
+  PlaceSteps& on_places(const std::vector<std::size_t>& robots);
+
+  FleetReservations& reservations_;
+  Random& random_;
+  ProgressReport& progress_;
+  std::optional<PlaceSteps> on_places_;  // of the robots that were asked for last
+};
+
+}  // namespace fleetplan::core

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <queue>
+#include <utility>
+#include <vector>
+
+#include "core/moves/configuration_search.h"
+#include "core/moves/joint_steps.h"
+#include "core/runtime/stop_condition.h"
+
+namespace fleetplan::core {
+
+/// Plans robots in steps in each of which one robot moves while all others rest: a best-first search over
+/// configurations, in which the way that is left counts more than the way so far. With few robots in little
+/// room, it can visit all of them.
+class SingleMoveSearch {
+ public:
+  /// `steps` outlive this object.
+  explicit SingleMoveSearch(const JointSteps& steps);
+
+  enum class Outcome : std::uint8_t {
+    found,
+    /// All configurations that such steps reach were visited: they lead to no end.
+    none,
+    /// The search has become as large as it may, or `stop` was met. It may go on.
+    cut_off,
+  };
+  /// Goes on until so many configurations are known.
+  Outcome run(std::size_t max_configurations, const StopCondition& stop);
+
+  /// Once it is found: the configurations from the starts to the goals.
+  std::vector<Configuration> plan() const;
+  /// How many configurations are known.
+  std::size_t count() const { return nodes_.size(); }
+
+ private:
+  static constexpr std::uint32_t kNone = 0xFFFFFFFF;
+  struct Node {
+    std::uint32_t before = kNone;
+    float way = 0.0F;  // metres, of all robots from the starts on
+    bool is_closed = false;
+  };
+  using Open = std::pair<float, std::uint32_t>;
+
+  std::vector<int>::const_iterator places_of(std::uint32_t node) const {
+    return places_.begin() + static_cast<std::ptrdiff_t>(node * steps_.size());
+  }
+  void expand(std::uint32_t node);
+  void add(const Configuration& at, std::uint32_t before, float way);
+  std::uint32_t& find(const Configuration& at);
+  void grow();
+
+  const JointSteps& steps_;
+  std::vector<Node> nodes_;
+  std::vector<int> places_;           // of all robots, node by node
+  std::vector<std::uint32_t> table_;  // nodes by hash; its size is a power of two
+  std::priority_queue<Open, std::vector<Open>, std::greater<>> open_;
+  Configuration at_;  // of the node that is expanded
+  std::uint32_t end_ = kNone;
+};
+
+}  // namespace fleetplan::core

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "core/fleet/fleet_reservations.h"
+#include "core/model/trajectory.h"
+#include "core/moves/joint_steps.h"
+#include "core/runtime/stop_condition.h"
+
+namespace fleetplan::core {
+
+/// Gives the steps of robots times, as a temporal plan graph does (Hönig et al., ICAPS 2016): in the order of
+/// the steps, each robot sets out as soon as it meets nobody who moves before it, and neither obstacles nor
+/// what is reserved in the table for other robots. `robots` are those of the steps; what is reserved for them
+/// does not count.
+///
+/// Returns a trajectory for each of the robots, in their order; none if a robot would have to be elsewhere
+/// at some time, or if `stop` is met first.
+std::optional<std::vector<Trajectory>> times_of_steps(FleetReservations& reservations,
+                                                      const std::vector<std::size_t>& robots,
+                                                      const JointSteps& steps,
+                                                      const std::vector<Configuration>& configurations,
+                                                      const StopCondition& stop);
+
+}  // namespace fleetplan::core
