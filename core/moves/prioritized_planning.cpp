@@ -90,7 +90,10 @@ class PrioritizedPlanning {
     result_.attempts += ordering.attempts;
     result_.cut_off =
         result_.cut_off || ordering.cut_off || best_.has_value() || ordering.steps == StepsOutcome::cut_off;
-    if (solved(ordering)) return std::move(result_);
+    if (solved(ordering)) {
+      if (someone_is_passed_over()) plan_whole_ways();
+      return std::move(result_);
+    }
     if (may_need_room(ordering) && give_way(ordering.hopeless, ordering.steps.has_value())) {
       ordering.unsolved.clear();
       ordering.given_up = ordering.hopeless;
@@ -181,6 +184,20 @@ class PrioritizedPlanning {
     if (best_ && best_->plan.staying.size() <= plan.staying.size()) return;
     best_ = PlanSnapshot{std::move(plan), state_.reservations().snapshot()};
   }
+
+  /// Whether the robot whose goal is the oldest has been planned up to the horizon only: others would have to
+  /// go back a long way for it, as in a corridor for one. That may be so for ever.
+  bool someone_is_passed_over() const {
+    if (!state_.instance().options().horizon || order_.empty()) return false;
+    const std::size_t oldest = order_.front();
+    const auto& trajectory = state_.reservations().trajectory(oldest);
+    return state_.instance().itinerary(oldest).goal_age > 0.0 && !state_.whole_way_of() && trajectory &&
+           trajectory->stops_at;
+  }
+
+  /// Plans all robots in steps, to their goals, beyond the horizon: that plan is kept until somebody has a new
+  /// goal, so that everybody arrives.
+  void plan_whole_ways() { steps_succeed({}, stop_); }
 
   bool has_few_robots() const { return order_.size() <= kFewRobots; }
   /// Whether other orders are tried from the beginning. Robots that yield make way for others in no order:
