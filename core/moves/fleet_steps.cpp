@@ -28,6 +28,7 @@ StepsOutcome FleetSteps::follow(const std::vector<std::size_t>& order,
   try {
     outcome = follow_until(robots, part);
   } catch (const std::bad_alloc&) {  // not granted to the job
+    outcome = StepsOutcome::limited;
     on_places_.reset();
   }
   if (outcome == StepsOutcome::followed) {
@@ -36,7 +37,7 @@ StepsOutcome FleetSteps::follow(const std::vector<std::size_t>& order,
     return outcome;
   }
   reservations_.restore(before);
-  return part.met() ? StepsOutcome::cut_off : StepsOutcome::none;
+  return part.met() ? StepsOutcome::cut_off : outcome;
 }
 
 StepsOutcome FleetSteps::follow_until(const std::vector<std::size_t>& robots, const StopCondition& stop) {
@@ -47,7 +48,7 @@ StepsOutcome FleetSteps::follow_until(const std::vector<std::size_t>& robots, co
   trajectories = places.run(stop);
   if (trajectories && follow_all(places.robots(), std::move(*trajectories), stop))
     return StepsOutcome::followed;
-  return StepsOutcome::none;
+  return places.has_no_way() ? StepsOutcome::none : StepsOutcome::limited;
 }
 
 /// Returns whether nobody meets.

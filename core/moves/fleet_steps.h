@@ -14,9 +14,16 @@
 
 namespace fleetplan::core {
 
-/// Whether robots follow a plan in steps; if not, whether because the time was over, so that there may be
-/// one.
-enum class StepsOutcome : std::uint8_t { followed, none, cut_off };
+/// Whether robots follow a plan in steps.
+enum class StepsOutcome : std::uint8_t {
+  followed,
+  /// Steps lead to no plan, or do not describe what the robots of the fleet do.
+  none,
+  /// There may be a plan: the search has become as large as it may.
+  limited,
+  /// There may be a plan: the time was over.
+  cut_off,
+};
 
 /// Plans of the whole fleet in steps: along the rows and columns of a lattice if that suffices, and otherwise
 /// over places. What it has searched it keeps for the next time that the same robots are asked for.

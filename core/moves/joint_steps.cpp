@@ -8,13 +8,14 @@
 namespace fleetplan::core {
 namespace {
 
-/// Pairs of a step and a place of which it is known whether they touch: 16 MB.
-constexpr std::size_t kMaxKnown = 16'000'000;
+/// Pairs of a step and a place of which it is known whether they touch: 4 MB.
+constexpr std::size_t kMaxKnown = 4'000'000;
 
 }  // namespace
 
 JointSteps::JointSteps(const std::vector<StepPlaces>& robots) : robots_(robots) {
   start_distance_.assign(size(), std::vector<float>(size(), static_cast<float>(kForever)));
+  // Bounded: few robots.
   for (std::size_t a = 0; a < size(); ++a) {
     for (std::size_t b = 0; b < size(); ++b) {
       if (a == b) continue;
@@ -93,34 +94,33 @@ JointSteps::Order JointSteps::order_of(const Move& first, const Move& second) co
 
 std::optional<std::vector<std::size_t>> JointSteps::order_of_step(const Configuration& from,
                                                                   const Configuration& to) const {
-  std::vector<std::size_t> moving;
-  for (std::size_t k = 0; k < from.size(); ++k) {
-    if (from[k] != to[k]) moving.push_back(k);
-  }
   std::vector<std::vector<std::size_t>> after(from.size());
   std::vector<std::size_t> before_count(from.size(), 0);
-  for (std::size_t a = 0; a < moving.size(); ++a) {
-    for (std::size_t b = a + 1; b < moving.size(); ++b) {
-      const std::size_t one = moving[a];
-      const std::size_t other = moving[b];
-      const Order order = order_of({one, from[one], to[one]}, {other, from[other], to[other]});
+  // Bounded: few robots.
+  for (std::size_t a = 0; a < from.size(); ++a) {
+    for (std::size_t b = a + 1; b < from.size(); ++b) {
+      const Order order = order_of({a, from[a], to[a]}, {b, from[b], to[b]});
       if (order == Order::none) return std::nullopt;
       if (order == Order::any) continue;
-      const auto [early, late] = order == Order::first ? std::pair(one, other) : std::pair(other, one);
+      const auto [early, late] = order == Order::first ? std::pair(a, b) : std::pair(b, a);
       after[early].push_back(late);
       ++before_count[late];
     }
   }
   std::vector<std::size_t> sequence;
-  for (const std::size_t robot : moving) {
+  std::size_t moving = 0;
+  for (std::size_t robot = 0; robot < from.size(); ++robot) {
+    if (from[robot] == to[robot]) continue;
+    ++moving;
     if (before_count[robot] == 0) sequence.push_back(robot);
   }
+  // Bounded: each robot comes once.
   for (std::size_t k = 0; k < sequence.size(); ++k) {
     for (const std::size_t late : after[sequence[k]]) {
       if (--before_count[late] == 0) sequence.push_back(late);
     }
   }
-  if (sequence.size() != moving.size()) return std::nullopt;
+  if (sequence.size() != moving) return std::nullopt;
   return sequence;
 }
 

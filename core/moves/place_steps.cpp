@@ -14,11 +14,13 @@ namespace {
 
 /// How far places are from each other, in distances of two robots in contact; 0: all vertices.
 constexpr std::array kPlaceSpacings{1.0, 0.5, 0.25, 0.0};
-/// The configurations of each search after which others go on. At the end they are 100 MB for six robots.
-constexpr std::array<std::size_t, 4> kMaxConfigurations{3'000, 30'000, 300'000, 600'000};
+/// The configurations of each search after which others go on. At the end they are 16 MB for six robots.
+constexpr std::array<std::size_t, 3> kMaxConfigurations{3'000, 30'000, 300'000};
 /// The most robots that are moved one at a time at first: for more of them, there are too many
 /// configurations.
 constexpr std::size_t kFewOnPlaces = 6;
+/// The most robots at all: each is compared with each other one.
+constexpr std::size_t kMaxOnPlaces = 256;
 
 }  // namespace
 
@@ -39,6 +41,7 @@ PlaceSteps::PlaceSteps(FleetReservations& reservations, std::vector<std::size_t>
 PlaceSteps::~PlaceSteps() = default;
 
 std::optional<std::vector<Trajectory>> PlaceSteps::run(const StopCondition& stop) {
+  if (robots_.size() > kMaxOnPlaces) return std::nullopt;
   // Bounded: a few rounds over a few levels.
   for (const std::size_t max_configurations : kMaxConfigurations) {
     for (std::size_t number = 0; number < kPlaceSpacings.size(); ++number) {

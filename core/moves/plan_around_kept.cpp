@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/moves/fleet_steps.h"
 #include "core/moves/orderings.h"
 #include "core/moves/repair.h"
 #include "core/moves/safe_plan.h"
@@ -11,6 +12,9 @@
 
 namespace fleetplan::core {
 namespace {
+
+/// The most robots that are all planned together for one that is passed over.
+constexpr std::size_t kMaxPassing = 64;
 
 bool has_time_for_two_parts(const PlanningTime& time) {
   return time.first_part.deadline() - StopCondition::Clock::now() >= budget::kLeastFirstPart;
@@ -36,10 +40,17 @@ class PlanningAroundKept {
     for (const std::size_t robot : movers_) {
       if (!reservations_.trajectory(robot)) others_.push_back(robot);
     }
-    if (others_.empty()) return std::move(result_);
+    if (others_.empty()) {
+      pass_those_in_the_way();
+      return std::move(result_);
+    }
     keep_without_search();
     const bool all_planned = !time_.all.met() && (repaired() || planned_anew());
-    if (!all_planned) explain_best();
+    if (all_planned) {
+      pass_those_in_the_way();
+    } else {
+      explain_best();
+    }
     if (returns_robots() && !end_.is_over()) return_to_kept();
     return std::move(result_);
   }
@@ -137,6 +148,7 @@ class PlanningAroundKept {
         plan_prioritized(state_, movers_, random_, PlanningTime::until(time_.all), progress_);
     result_.attempts += anew.attempts;
     result_.cut_off = result_.cut_off || anew.cut_off;
+    result_.is_limited = anew.is_limited;
     SafePlan plan;
     for (const Unplanned& robot : anew.unplanned) {
       plan.staying.push_back({robot.robot, robot.reason == Unplanned::Reason::blocked_by_robots});
@@ -163,6 +175,20 @@ class PlanningAroundKept {
     PartialPlan partial = explain(state_, best_.plan, time_.all);
     result_.cut_off = result_.cut_off || partial.cut_off;
     result_.unplanned = std::move(partial.unplanned);
+  }
+
+  /// Plans all robots in steps, to their goals, if one has gained nothing for as long as the horizon and
+  /// gains nothing now: nobody who keeps a plan makes way for it.
+  void pass_those_in_the_way() {
+    const auto& horizon = state_.instance().options().horizon;
+    if (!horizon || movers_.size() > kMaxPassing || time_.all.met()) return;
+    const bool is_any_passed_over = std::any_of(movers_.begin(), movers_.end(), [&](std::size_t robot) {
+      return reservations_.trajectory(robot)->gains_nothing &&
+             state_.instance().itinerary(robot).goal_age >= *horizon;
+    });
+    if (!is_any_passed_over) return;
+    const auto outcome = FleetSteps(reservations_, random_, progress_).follow(order(), {}, time_.all);
+    result_.cut_off = result_.cut_off || outcome == StepsOutcome::cut_off;
   }
 
   /// Returns the robots whose trajectory is not the one that they had at first.

@@ -21,6 +21,8 @@ namespace {
 constexpr std::size_t kFewRobots = 4;
 /// Attempts in random orders, each with repairs, if no deadline ends them.
 constexpr int kMaxOrdersWithoutDeadline = 10;
+/// With a horizon, the most robots that are planned to their goals all at once.
+constexpr std::size_t kMaxWholeWays = 64;
 /// The failed attempts after which robots of different sizes are planned again in that order, if they were
 /// planned in another one.
 constexpr std::int64_t kMaxFailures = 15;
@@ -90,8 +92,9 @@ class PrioritizedPlanning {
     result_.attempts += ordering.attempts;
     result_.cut_off =
         result_.cut_off || ordering.cut_off || best_.has_value() || ordering.steps == StepsOutcome::cut_off;
+    result_.is_limited = ordering.steps == StepsOutcome::limited;
     if (solved(ordering)) {
-      if (someone_is_passed_over()) plan_whole_ways();
+      if (may_go_on_for_ever()) plan_whole_ways();
       return std::move(result_);
     }
     if (may_need_room(ordering) && give_way(ordering.hopeless, ordering.steps.has_value())) {
@@ -174,6 +177,7 @@ class PrioritizedPlanning {
   bool steps_succeed(const std::vector<std::size_t>& staying, const StopCondition& stop) {
     const StepsOutcome outcome = steps_.follow(order_, staying, stop);
     result_.cut_off = result_.cut_off || outcome == StepsOutcome::cut_off;
+    result_.is_limited = outcome == StepsOutcome::limited;
     if (outcome == StepsOutcome::followed) ++result_.attempts;
     return outcome == StepsOutcome::followed;
   }
@@ -185,18 +189,29 @@ class PrioritizedPlanning {
     best_ = PlanSnapshot{std::move(plan), state_.reservations().snapshot()};
   }
 
-  /// Whether the robot whose goal is the oldest has been planned up to the horizon only: others would have to
-  /// go back a long way for it, as in a corridor for one. That may be so for ever.
-  bool someone_is_passed_over() const {
-    if (!state_.instance().options().horizon || order_.empty()) return false;
-    const std::size_t oldest = order_.front();
-    const auto& trajectory = state_.reservations().trajectory(oldest);
-    return state_.instance().itinerary(oldest).goal_age > 0.0 && !state_.whole_way_of() && trajectory &&
-           trajectory->stops_at;
+  /// Whether what is planned up to the horizon may go on like that for ever: the robot whose goal is the
+  /// oldest has no plan beyond it, since others would have to go back a long way, or one that has arrived
+  /// leaves its goal and does not come back. Robots whose goals lie in each other's way would come and leave
+  /// in turn.
+  bool may_go_on_for_ever() const {
+    if (!state_.instance().options().horizon || order_.empty() || order_.size() > kMaxWholeWays) return false;
+    if (state_.instance().itinerary(order_.front()).goal_age > 0.0 && !state_.whole_way_of() &&
+        stops_at_horizon(order_.front())) {
+      return true;
+    }
+    return std::any_of(order_.begin(), order_.end(), [&](std::size_t robot) {
+      const Itinerary& itinerary = state_.instance().itinerary(robot);
+      return !itinerary.yields() && has_arrived(itinerary) && stops_at_horizon(robot);
+    });
   }
 
-  /// Plans all robots in steps, to their goals, beyond the horizon: that plan is kept until somebody has a new
-  /// goal, so that everybody arrives.
+  bool stops_at_horizon(std::size_t robot) const {
+    const auto& trajectory = state_.reservations().trajectory(robot);
+    return trajectory && trajectory->stops_at;
+  }
+
+  /// Plans all robots in steps, to their goals, beyond the horizon: that plan is kept until somebody has a
+  /// new goal, so that everybody arrives.
   void plan_whole_ways() { steps_succeed({}, stop_); }
 
   bool has_few_robots() const { return order_.size() <= kFewRobots; }

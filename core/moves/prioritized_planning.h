@@ -21,6 +21,8 @@ struct PrioritizedResult {
   std::vector<Unplanned> unplanned;  // ascending
   std::int64_t attempts = 0;
   bool cut_off = false;  // the stop condition decided something
+  /// The last plan in steps failed for the size that its search may have: it proves nothing.
+  bool is_limited = false;
 };
 
 /// The use of a time budget.

@@ -43,7 +43,9 @@ class Choice {
     }
   }
 
-  int nearest(const Position& position) const {
+  /// Of those that can be reached; -1 once the stop condition is met.
+  int nearest(const Position& position) {
+    if (stop_.met_after(reachable_.size())) return -1;
     return *std::min_element(reachable_.begin(), reachable_.end(), [&](int a, int b) {
       return (vertices_.position(a) - position).squaredNorm() <
              (vertices_.position(b) - position).squaredNorm();
@@ -223,6 +225,7 @@ SparseVertices::SparseVertices(const Vertices& vertices, const std::vector<int>&
   for (const int vertex : required) choice.choose(vertex);
   for (const Position& position : wanted) {
     const int vertex = choice.nearest(position);
+    if (vertex < 0) return;
     if ((vertices.position(vertex) - position).norm() < 0.5 * spacing) choice.choose(vertex);
   }
   choice.choose_until(static_cast<float>(spacing));

@@ -21,6 +21,7 @@ namespace {
 constexpr std::size_t kMaxPlaces = 600'000;
 /// Places between two checks of the stop condition.
 constexpr std::size_t kPlacesBetweenPolls = 256;
+constexpr std::size_t kWallsBetweenPolls = 8;
 /// The most places at walls of one robot.
 constexpr std::size_t kMaxAtWalls = 400;
 /// Places at walls are farther than this from a vertex, in spacings of the lattice.
@@ -44,7 +45,7 @@ class PlacesAtWalls {
   PlacesAtWalls(const Vertices& vertices, const View& view, const StopCondition& stop)
       : vertices_(vertices),
         view_(view),
-        stop_(stop, kPlacesBetweenPolls),
+        stop_(stop, kWallsBetweenPolls),
         narrow_(4.0 * view.body.pair_radius) {}
 
   /// Beside the vertices that can be reached from this one.
@@ -108,6 +109,7 @@ class PlaceSearch {
         itinerary_(instance.itinerary(robot)),
         views_(instance.views(robot)),
         resting_(resting),
+        condition_(stop),
         stop_(stop, kPlacesBetweenPolls),
         last_stage_(static_cast<std::uint32_t>(itinerary_.goals.size()) - (itinerary_.yields() ? 1U : 0U)) {
     for (std::size_t stage = 0; stage <= last_stage_; ++stage) {
@@ -118,21 +120,23 @@ class PlaceSearch {
   }
 
   /// Leaves out most vertices, see SparseVertices.
-  void make_sparse(const std::vector<Position>& wanted, double spacing, const StopCondition& stop) {
+  void make_sparse(const std::vector<Position>& wanted, double spacing) {
+    // Bounded: the goals of one robot, for each of its few loads.
     for (std::size_t stage = 0; stage <= last_stage_; ++stage) {
-      if (views_.number(stage) < sparse_.size() || stop.met()) continue;
+      if (condition_.met()) return;
+      if (views_.number(stage) < sparse_.size()) continue;
       const Vertices& vertices = *vertices_[views_.number(stage)];
       std::vector<int> required;
       if (vertices.start() >= 0) required.push_back(vertices.start());
       for (std::size_t k = 0; k < itinerary_.goals.size(); ++k) {
         if (vertices.goals()[k].vertex >= 0) required.push_back(vertices.goals()[k].vertex);
       }
-      sparse_.push_back(std::make_unique<SparseVertices>(vertices, required, wanted, spacing, stop));
+      sparse_.push_back(std::make_unique<SparseVertices>(vertices, required, wanted, spacing, condition_));
     }
   }
 
   std::optional<StepPlaces> run(std::size_t max_places) {
-    if (stop_.met()) return std::nullopt;
+    if (condition_.met()) return std::nullopt;
     for (const auto& vertices : vertices_) {
       if (!vertices->finished()) return std::nullopt;
     }
@@ -282,6 +286,7 @@ class PlaceSearch {
   const Itinerary& itinerary_;
   const Views& views_;
   const std::vector<Resting>& resting_;
+  const StopCondition& condition_;
   StopStride stop_;
   const std::uint32_t last_stage_;
   std::vector<std::unique_ptr<Vertices>> vertices_;      // by number of the view
@@ -315,7 +320,7 @@ std::optional<std::vector<StepPlaces>> places_of_steps(const FleetReservations& 
   std::size_t left = kMaxPlaces;
   for (const std::size_t robot : robots) {
     PlaceSearch search(instance, robot, resting, sparse > 0.0 ? wanted : std::vector<Position>{}, stop);
-    if (sparse > 0.0) search.make_sparse(wanted, 2.0 * widest * sparse, stop);
+    if (sparse > 0.0) search.make_sparse(wanted, 2.0 * widest * sparse);
     auto places = search.run(left);
     if (!places || stop.met() || !(places->places.front().to_go < kForever)) return std::nullopt;
     left -= std::min(left, places->places.size());

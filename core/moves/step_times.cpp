@@ -24,12 +24,13 @@ struct Progress {
 class StepTimes {
  public:
   StepTimes(const FleetReservations& reservations, const std::vector<std::size_t>& robots,
-            const JointSteps& steps)
+            const JointSteps& steps, double earliest)
       : reservations_(reservations),
         instance_(reservations.instance()),
         table_(reservations.table()),
         robots_(robots),
         steps_(steps),
+        earliest_(earliest),
         margin_(instance_.options().interval_margin) {}
 
   /// Returns false if a robot cannot stay where its plan begins.
@@ -41,7 +42,7 @@ class StepTimes {
       if (progress.trajectory.moves.empty()) progress.trajectory.start = steps_.robot(k).at(0).position;
       progress.heading = itinerary.pose.theta;
       progress.t_arrive = itinerary.t_begin;
-      progress.t_ready = itinerary.t_begin;
+      progress.t_ready = std::max(itinerary.t_begin, earliest_);
       const auto safe = safe_intervals(k, 0, itinerary.t_begin);
       const auto now = std::find_if(safe.begin(), safe.end(), [&](const SafeInterval& interval) {
         return interval.contains(itinerary.t_begin);
@@ -161,6 +162,7 @@ class StepTimes {
     const double radius = std::max(times.body().pair_radius, radius_there);
     const std::vector<TimedSegment> parts = parts_of(times, way, duration);
     const double t_min = progress_[k].t_ready - margin_;
+    // Bounded: few robots, and what they did since this one has come.
     for (std::size_t other = 0; other < robots_.size(); ++other) {
       if (other == k) continue;
       const std::vector<SizedSegment>& past = progress_[other].past;
@@ -188,6 +190,7 @@ class StepTimes {
   /// The parts of a move in which its acceleration is constant, from its departure on.
   static std::vector<TimedSegment> parts_of(const MoveTimes& times, const Segment& way, double duration) {
     std::vector<TimedSegment> parts;
+    // Bounded: the pieces of one move, and at most three phases of each.
     for (const TimedMove& move : timed_moves(times, way, 0.0, duration, false)) {
       if (!move.profile) {
         parts.push_back(move);
@@ -241,9 +244,42 @@ class StepTimes {
   const ReservationTable& table_;
   const std::vector<std::size_t>& robots_;
   const JointSteps& steps_;
-  const double margin_;  // seconds
+  const double earliest_;  // seconds: nobody sets out before
+  const double margin_;    // seconds
   std::vector<Progress> progress_;
 };
+
+std::optional<std::vector<Trajectory>> times_from(double earliest, const FleetReservations& reservations,
+                                                  const std::vector<std::size_t>& robots,
+                                                  const JointSteps& steps,
+                                                  const std::vector<Configuration>& configurations,
+                                                  const StopCondition& stop) {
+  StepTimes times(reservations, robots, steps, earliest);
+  if (!times.begin()) return std::nullopt;
+  for (std::size_t k = 1; k < configurations.size(); ++k) {
+    if (stop.met() || !times.step(configurations[k - 1], configurations[k])) return std::nullopt;
+  }
+  return times.finish();
+}
+
+/// When obstacles, committed motion and all other robots have come to rest, seconds; 0 if nothing else moves.
+double rest_of_others(const FleetReservations& reservations, const std::vector<std::size_t>& robots) {
+  const Instance& instance = reservations.instance();
+  std::vector<bool> moves(instance.size(), false);
+  for (const std::size_t robot : robots) moves[robot] = true;
+  double t = 0.0;
+  for (const MovingObstacle& obstacle : instance.problem().obstacles()) {
+    t = std::max(t, obstacle.motion.back().t);
+  }
+  for (std::size_t robot = 0; robot < instance.size(); ++robot) {
+    t = std::max(t, instance.itinerary(robot).t_begin);
+    const auto& trajectory = reservations.trajectory(robot);
+    if (!moves[robot] && trajectory && !trajectory->moves.empty()) {
+      t = std::max(t, trajectory->moves.back().t_end);
+    }
+  }
+  return t;
+}
 
 }  // namespace
 
@@ -253,12 +289,11 @@ std::optional<std::vector<Trajectory>> times_of_steps(FleetReservations& reserva
                                                       const std::vector<Configuration>& configurations,
                                                       const StopCondition& stop) {
   const IgnoredRobots ignored(reservations, robots);
-  StepTimes times(reservations, robots, steps);
-  if (!times.begin()) return std::nullopt;
-  for (std::size_t k = 1; k < configurations.size(); ++k) {
-    if (stop.met() || !times.step(configurations[k - 1], configurations[k])) return std::nullopt;
-  }
-  return times.finish();
+  auto trajectories = times_from(0.0, reservations, robots, steps, configurations, stop);
+  if (trajectories) return trajectories;
+  const double rest = rest_of_others(reservations, robots);
+  if (rest == 0.0) return std::nullopt;
+  return times_from(rest, reservations, robots, steps, configurations, stop);
 }
 
 }  // namespace fleetplan::core

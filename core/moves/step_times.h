@@ -17,7 +17,7 @@ namespace fleetplan::core {
 /// does not count.
 ///
 /// Returns a trajectory for each of the robots, in their order; none if a robot would have to be elsewhere
-/// at some time, or if `stop` is met first.
+/// at some time, even if all wait at first until everything else has come to rest, or if `stop` is met first.
 std::optional<std::vector<Trajectory>> times_of_steps(FleetReservations& reservations,
                                                       const std::vector<std::size_t>& robots,
                                                       const JointSteps& steps,

@@ -320,7 +320,7 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
 
   Plan plan = with_stuck_explained(state, current_plan(lns), briefly(stop));
   progress.plan_found(plan.objectives);
-  const bool may_plan_more = !plan.unplanned.empty() && prioritized.cut_off;
+  const bool may_plan_more = !plan.unplanned.empty() && (prioritized.cut_off || prioritized.is_limited);
   plan.search.exhausted = !may_plan_more && (anytime ? lns.exhausted : !plan.unplanned.empty());
   cut_off = cut_off || previous.cut_off || prioritized.cut_off || bounds.cut_off() || lns.cut_off;
   plan.deterministic = plan.deterministic && !cut_off && !stop.cancelled();

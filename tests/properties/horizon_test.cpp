@@ -15,6 +15,7 @@
 #include "core/plan/planner.h"
 #include "core/verify/verify.h"
 #include "tests/support/expect_replanned.h"
+#include "tests/support/mazes.h"
 #include "tests/support/moments.h"
 #include "tests/support/moving_fleet.h"
 #include "tests/support/random_problem.h"
@@ -238,6 +239,38 @@ TEST_P(HorizonOfRandomFleet, EveryPlanIsValidOnAnyMap) {
     if (testing::Test::HasFailure()) return;
     advance(request, plan, 0.4 * *request.options.horizon, 0.0);
   }
+}
+
+/// In corridors for one, robots have to go back a long way for others, beyond any horizon.
+TEST_P(HorizonOfRandomFleet, LetsEverybodyArriveInMazes) {
+  constexpr double kPeriod = 5.0;
+  constexpr int kMaxRoundsInMazes = 40;
+  Dice dice(static_cast<std::uint64_t>(GetParam()) + 3000);
+  const support::Maze maze =
+      support::solvable_maze(dice, 2 + static_cast<std::size_t>(dice.below(4)), dice.chance(0.5));
+  SCOPED_TRACE(testing::Message() << "seed " << GetParam() << support::drawing_of(maze));
+  FleetRequest request{
+      support::map_of(maze, dice.chance(0.5) ? 1 : 20), support::robots_of(maze), {}, {}, {}};
+  for (Robot& robot : request.robots) robot.id = std::to_string(&robot - request.robots.data());
+  request.options.horizon = 20.0;
+  if (dice.chance(0.5)) request.options.replan = PlanOptions::Replan::where_needed;
+  bool all_arrived = false;
+  for (int round = 0; round < kMaxRoundsInMazes && !all_arrived; ++round) {
+    const auto problem = support::problem_of(request);
+    ASSERT_TRUE(problem) << "round " << round;
+    const Plan plan = core::plan(*problem, request.options, StopCondition::never());
+    expect_valid(*problem, plan, request.options);
+    EXPECT_TRUE(plan.unplanned.empty()) << "round " << round;
+    if (testing::Test::HasFailure()) return;
+    advance(request, plan, kPeriod, 0.0);
+    all_arrived = true;
+    for (Robot& robot : request.robots) {
+      const bool has_arrived = is_same_position(robot.start.position, robot.goal->position);
+      robot.goal_age = has_arrived ? 0.0 : robot.goal_age + kPeriod;
+      all_arrived = all_arrived && has_arrived;
+    }
+  }
+  EXPECT_TRUE(all_arrived);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, HorizonOfRandomFleet, testing::Range(0, 60));
