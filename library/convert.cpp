@@ -211,6 +211,7 @@ core::PlanOptions options_of(const Options& options, bool in_motion) {
   made.replan = static_cast<core::PlanOptions::Replan>(options.replan);
   made.interval_margin = options.interval_margin;
   made.start_overlap = options.start_overlap;
+  made.goal_overlap = options.goal_overlap;
   made.lattice_spacing = options.lattice_spacing;
   made.horizon = options.horizon;
   made.max_iterations = options.max_iterations;

@@ -378,6 +378,7 @@ std::vector<Fault> faults_of(const Options& options, const Map& map) {
   faults.check(options.wait_before_move, kDuration, "options.wait_before_move");
   faults.check(options.interval_margin, kDuration, "options.interval_margin");
   faults.check(options.start_overlap, kLengthOrZero, "options.start_overlap");
+  faults.check(options.goal_overlap, kLengthOrZero, "options.goal_overlap");
   if (options.horizon) faults.check(*options.horizon, kHorizon, "options.horizon");
   const int c = options.connectivity;
   if (c != 4 && c != 8 && c != 16 && c != 32) {
@@ -496,7 +497,8 @@ class ProblemMaker {
  private:
   /// Returns whether all open goals have a pose; otherwise there are faults, or robots are invalid.
   bool choose_poses() {
-    const auto without = core::choose_without_search(map_, fleet_.zones, fleet_.robots, fleet_.open, stop_);
+    const auto without =
+        core::choose_without_search(map_, fleet_.zones, options_, fleet_.robots, fleet_.open, stop_);
     for (const core::WithoutPose& goal : without) {
       const Fault fault = described(goal, fleet_.open);
       if (reports_) {

@@ -159,6 +159,7 @@ Verification verify(const Problem& problem, std::span<const RobotPlan> plans, co
   core_rules.interval_margin = rules.interval_margin;
   core_rules.wait_before_move = rules.wait_before_move;
   core_rules.start_overlap = rules.start_overlap;
+  core_rules.goal_overlap = rules.goal_overlap;
   core_rules.horizon = rules.horizon;
   core_rules.exempt = library::unavoidable_of(rules.unavoidable);
   const core::OccupancyGrid grid = library::grid_of(problem.map);
@@ -178,6 +179,7 @@ Verification verify(const Problem& problem, const Plan& plan, const Options& opt
   Rules rules;
   rules.interval_margin = options.interval_margin;
   rules.start_overlap = options.start_overlap;
+  rules.goal_overlap = options.goal_overlap;
   rules.horizon = options.horizon;
   rules.unavoidable = plan.unavoidable;
   for (const Unplanned& robot : plan.unplanned) {

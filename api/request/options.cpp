@@ -71,7 +71,7 @@ constexpr WordOption one_of_invalid_robots() {
           }};
 }
 
-constexpr std::array<OptionRow, 22> kTable{{
+constexpr std::array<OptionRow, 23> kTable{{
     {"time_budget_ms", "Time budget", "ms", ServiceOption{kBudget, &ParsedOptions::budget_ms, 5000.0},
      "Milliseconds for the whole answer, counted from the last byte received. `GET /v1/limits` returns the "
      "default (`default_budget_ms`) and the maximum (`max_budget_ms`); a larger value is clamped, with a "
@@ -123,6 +123,9 @@ constexpr std::array<OptionRow, 22> kTable{{
     {"start_overlap", "Overlap at the start", "m", RealOption{kLengthOrZero, &PlanOptions::start_overlap},
      "Metres by which measured starts may overlap each other or a wall, inflation included. Such robots come "
      "no nearer until they are clear."},
+    {"goal_overlap", "Overlap at the goal", "m", RealOption{kLengthOrZero, &PlanOptions::goal_overlap},
+     "Metres by which robots may overlap a wall at their last goals, as in docks, inflation included. They "
+     "come no nearer than they are there on their straight way in, and may start there the next time."},
     {"invalid_robots", "Invalid robots", "", one_of_invalid_robots(),
      "What to do with robots whose poses or committed actions collide: `refuse` answers 422; `report` lists "
      "them in `unplanned` with the reason `invalid` and their `errors`, as obstacles at their starts, and "

@@ -114,7 +114,8 @@ class ProblemMaker {
 
   /// Chooses the poses of open goals, as far as that takes no search. Returns whether all of them have one.
   bool choose_poses_without_search() {
-    const auto without = core::choose_without_search(map_, zones(), robots_, open_, work_.reading());
+    const auto without =
+        core::choose_without_search(map_, zones(), fleet_.options.plan, robots_, open_, work_.reading());
     for (const core::WithoutPose& goal : without) report_open(goal);
     return without.empty() && !work_.met();
   }
@@ -323,6 +324,7 @@ core::CheckRules rules_of(const core::PlanOptions& options,
   core::CheckRules rules;
   rules.interval_margin = options.interval_margin;
   rules.start_overlap = options.start_overlap;
+  rules.goal_overlap = options.goal_overlap;
   rules.horizon = options.horizon;
   rules.exempt = std::move(collisions);
   return rules;

@@ -184,7 +184,7 @@ bool fits_at_ends(const Instance& instance, std::size_t robot, std::size_t leg) 
   const double radius = instance.views(robot)[leg].body.wall_radius;
   const std::vector<Goal>& goals = instance.itinerary(robot).goals;
   const auto fits_at = [&](const Goal& goal) {
-    return radius_at_goal(instance, robot, goal.position, leg) == radius;
+    return radius_at_goal(instance, robot, goal.position, leg, 0.0) == radius;
   };
   const bool fits_at_begin = leg == 0 ? fits_at_start(instance, robot) : fits_at(goals[leg - 1]);
   return fits_at_begin && fits_at(goals[leg]);

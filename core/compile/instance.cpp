@@ -110,20 +110,26 @@ namespace {
 /// More than what a disk in contact with an obstacle overlaps it, rounding included.
 constexpr double kMaxOverlap = kContactTolerance + 2.0 * kSamePosition;
 
+/// What is left of a disk that overlaps walls by so much, or by a contact; metres.
+double least_radius(double radius, double overlap) {
+  return std::max(radius - overlap - kMaxOverlap, kSmallestDisk * radius);
+}
+
 }  // namespace
 
 double radius_at_start(const Instance& instance, std::size_t robot) {
   const double radius = instance.body(robot).radius;
   const PlanOptions& options = instance.options();
-  const double overlap = std::max(0.0, options.start_overlap - options.inflation);  // of the bare disk
-  const double least = std::max(radius - overlap - kMaxOverlap, kSmallestDisk * radius);
-  return instance.sight(robot).fitting_radius(instance.itinerary(robot).pose.position, least,
+  const double overlap = std::max(0.0, options.overlap_at_start() - options.inflation);  // of the bare disk
+  return instance.sight(robot).fitting_radius(instance.itinerary(robot).pose.position,
+                                              least_radius(radius, overlap),
                                               instance.body(robot).wall_radius);
 }
 
-double radius_at_goal(const Instance& instance, std::size_t robot, const Position& goal, std::size_t stage) {
+double radius_at_goal(const Instance& instance, std::size_t robot, const Position& goal, std::size_t stage,
+                      double overlap) {
   const double radius = instance.views(robot)[stage].body.wall_radius;
-  return instance.sight(robot).fitting_radius(goal, radius - kMaxOverlap, radius);
+  return instance.sight(robot).fitting_radius(goal, least_radius(radius, overlap), radius);
 }
 
 bool fits_at_start(const Instance& instance, std::size_t robot) {
@@ -135,19 +141,37 @@ bool is_clear_at_start(const Instance& instance, std::size_t robot) {
   return radius_at_start(instance, robot) >= instance.body(robot).wall_radius - kMaxOverlap;
 }
 
-bool fits_at_goals(const Instance& instance, std::size_t robot) {
+namespace {
+
+/// Whether walls leave so much of the larger one of the disks with which the robot comes to a goal and leaves
+/// it.
+bool fits_at_goal(const Instance& instance, std::size_t robot, std::size_t goal, double overlap) {
   const Views& views = instance.views(robot);
+  const double largest = std::max(views[goal].body.wall_radius, views[goal + 1].body.wall_radius);
+  return instance.sight(robot).disk_fits(instance.itinerary(robot).goals[goal].position,
+                                         least_radius(largest, overlap));
+}
+
+}  // namespace
+
+bool fits_at_goals(const Instance& instance, std::size_t robot) {
   const std::vector<Goal>& goals = instance.itinerary(robot).goals;
   for (std::size_t k = 0; k < goals.size(); ++k) {
     if (goals[k].anywhere) continue;
-    const double largest = std::max(views[k].body.wall_radius, views[k + 1].body.wall_radius);
-    if (!instance.sight(robot).disk_fits(goals[k].position, largest - kMaxOverlap)) return false;
+    const double overlap = k + 1 == goals.size() ? instance.options().goal_overlap : 0.0;
+    if (!fits_at_goal(instance, robot, k, overlap)) return false;
   }
   return true;
 }
 
-bool fits_at(const Instance& instance, std::size_t robot, const Position& position) {
-  return instance.sight(robot).disk_fits(position, instance.body(robot).wall_radius - kMaxOverlap);
+bool enters_last_goal(const Instance& instance, std::size_t robot) {
+  const std::vector<Goal>& goals = instance.itinerary(robot).goals;
+  return !goals.back().anywhere && !fits_at_goal(instance, robot, goals.size() - 1, 0.0);
+}
+
+bool may_stay_at(const Instance& instance, std::size_t robot, const Position& position) {
+  const double radius = instance.body(robot).wall_radius;
+  return instance.sight(robot).disk_fits(position, least_radius(radius, instance.options().goal_overlap));
 }
 
 }  // namespace fleetplan::core

@@ -77,16 +77,20 @@ class Instance {
 
 /// The largest disk of the robot that fits where its plan begins: its radius, or less where a wall is nearer.
 double radius_at_start(const Instance& instance, std::size_t robot);
-/// The largest one that fits at the goal of a stage, where a wall may be nearer by a contact only.
-double radius_at_goal(const Instance& instance, std::size_t robot, const Position& goal, std::size_t stage);
+/// The largest one that fits at the goal of a stage, which may overlap a wall by so much, or by a contact
+/// (metres).
+double radius_at_goal(const Instance& instance, std::size_t robot, const Position& goal, std::size_t stage,
+                      double overlap);
 
 /// Whether the robot's disk fits where its plan begins.
 bool fits_at_start(const Instance& instance, std::size_t robot);
 /// Whether no wall is nearer than in contact where the robot's plan begins.
 bool is_clear_at_start(const Instance& instance, std::size_t robot);
-/// Whether the robot's disk fits at all goals that are left, or is in contact with a wall.
+/// Whether the robot's disk fits at all goals that are left, or overlaps a wall there as it may.
 bool fits_at_goals(const Instance& instance, std::size_t robot);
-/// Whether its disk fits at this position on the way to its first goal, or is in contact with a wall.
-bool fits_at(const Instance& instance, std::size_t robot, const Position& position);
+/// Whether the robot, which has a goal, overlaps a wall at its last one by more than a contact.
+bool enters_last_goal(const Instance& instance, std::size_t robot);
+/// Whether it may stay at this position with its first load, if that is its last goal.
+bool may_stay_at(const Instance& instance, std::size_t robot, const Position& position);
 
 }  // namespace fleetplan::core

@@ -183,6 +183,11 @@ class Triage {
       return give_up(i, Reason::goal_blocked,
                      "The inflated robot does not fit between the obstacles at its goal.");
     }
+    if (enters_last_goal(instance_, i) && !ways_.can_enter_last_goal(i, stop_)) {
+      return give_up(i, Reason::goal_blocked,
+                     "The inflated robot overlaps an obstacle at its last goal, and no straight move leads "
+                     "there from where it fits.");
+    }
     // If the inflated goals of two robots overlap, the one with a plan is planned, or the first one in the
     // list.
     // A robot that yields leaves its last goal again.

@@ -39,6 +39,19 @@ bool StaticWays::can_leave_place(std::size_t robot, const StopCondition& stop) {
   });
 }
 
+bool StaticWays::can_enter_last_goal(std::size_t robot, const StopCondition& stop) {
+  return memory_.within_memory(true, [&] {
+    SearchSpace* space = memory_.space_of(robot, stop);
+    if (space == nullptr) return true;
+    const std::size_t last = space->goal_count() - 1;
+    const Vertices& vertices = space->vertices(last);
+    const int goal = space->goal_pose(last).vertex;
+    bool can_enter = goal == space->begin_of(last);
+    vertices.for_each_neighbour(goal, [&](int) { can_enter = true; });
+    return can_enter;
+  });
+}
+
 const Way& StaticWays::way_to_goal(std::size_t robot, std::int64_t max_expansions,
                                    const StopCondition& stop) {
   Way& way = ways_[robot];

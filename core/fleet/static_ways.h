@@ -39,6 +39,8 @@ class StaticWays {
 
   /// Whether obstacles allow the robot a move from its place; true if `stop` is met first.
   bool can_leave_place(std::size_t robot, const StopCondition& stop);
+  /// Whether they allow it a move to its last goal, or it begins there; true if `stop` is met first.
+  bool can_enter_last_goal(std::size_t robot, const StopCondition& stop);
   /// Whether the robot has a way to its goal past obstacles and, without a horizon, the robots that stay;
   /// unknown if `stop` is met first, or if that takes more than `max_expansions` expansions of a search on
   /// the map.

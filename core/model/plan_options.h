@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 
@@ -35,12 +36,18 @@ struct PlanOptions {
   double interval_margin = 0.0;
   /// Metres, >= 0: how much starts may overlap each other or a wall, inflation included.
   double start_overlap = 0.0;
+  /// Metres, >= 0: how much a robot may overlap a wall at its last goal, inflation included, where it stays.
+  /// As such a robot begins there the next time, starts may overlap so much, too.
+  double goal_overlap = 0.0;
   /// Metres between the vertices of the lattice; nullopt: chosen by the map and the robots.
   std::optional<double> lattice_spacing = {};
   /// Seconds, > 0: conflicts are resolved up to this time; then a robot may rest anywhere for good and has
   /// its static way before it. nullopt: whole ways are planned.
   std::optional<double> horizon = {};
   std::optional<std::int64_t> max_iterations;  // steps of `anytime`; nullopt: until the stop condition is met
+
+  /// Metres: how much starts may overlap, by both options.
+  double overlap_at_start() const { return std::max(start_overlap, goal_overlap); }
 };
 
 }  // namespace fleetplan::core

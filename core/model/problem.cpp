@@ -29,6 +29,15 @@ constexpr int kMeasured = 16;
 
 using Disk = MotionTree::Disk;
 
+/// What a disk keeps from walls to be clear of them, metres.
+double clear(double radius) { return radius - kContactTolerance + kSearchSlack; }
+
+/// What it keeps at least where it may overlap them by so much, metres.
+double least_disk(double radius, double overlap) {
+  const double full = clear(radius);
+  return overlap > 0.0 ? std::max(full - overlap, kSmallestDisk * full) : full;
+}
+
 /// Where a robot certainly is: its committed motion, and a robot that never leaves stays at its end.
 std::vector<Disk> certain_motion(const Robot& robot) {
   std::vector<Disk> motion;
@@ -111,8 +120,8 @@ class CommittedFaults {
   void check_walls(std::size_t index) {
     const Robot& robot = robots_[index];
     const LineOfSight& sight = maps_.while_leaving(index)->sight();
-    double full = robot.radius - kContactTolerance + kSearchSlack;
-    const double least = std::max(full - conditions_.wall_overlap, kSmallestDisk * full);
+    double full = clear(robot.radius);
+    const double least = least_disk(robot.radius, conditions_.wall_overlap);
     if (!sight.disk_fits(robot.start.position, least)) return;  // its start is at fault
     double radius = sight.fitting_radius(robot.start.position, least, full);
     const Itinerary itinerary = itinerary_of(robot);
@@ -124,11 +133,13 @@ class CommittedFaults {
       if (stop_.met()) return;
       for (; step != steps.end() && step->t <= action.t_start; ++step) {
         own = step->radius;
-        full = own - kContactTolerance + kSearchSlack;
+        full = clear(own);
         radius = full;  // the goal where it changes fits
       }
-      if (!sight.may_sweep(action.from.position, action.to.position, radius)) {
-        return add_wall(index, action, own, radius);
+      // It may be on the way into a last goal, or out of one.
+      const double kept = std::min(radius, least_disk(own, conditions_.wall_overlap_at_goal));
+      if (!sight.may_sweep(action.from.position, action.to.position, kept)) {
+        return add_wall(index, action, own, kept);
       }
       if (sight.disk_fits(action.to.position, full)) radius = full;
     }
@@ -321,7 +332,6 @@ class FaultSearch {
   void check_obstacles(std::size_t index) {
     const Robot& robot = robots_[index];
     if (robot.invalid) return;
-    const auto clear = [](double radius) { return radius - kContactTolerance + kSearchSlack; };
     const auto check = [&](const Position& position, double least, ProblemFault fault) {
       if (maps_.while_leaving(index)->sight().disk_fits(position, least)) return;
       const double own = fault.radius;
@@ -332,9 +342,7 @@ class FaultSearch {
       }
       add(fault, [&] { return obstacle_distance(maps_.map()->grid(), position, own) - own; });
     };
-    const double overlap = conditions_.wall_overlap;
-    const double radius = clear(robot.radius);
-    check(robot.start.position, overlap > 0.0 ? std::max(radius - overlap, kSmallestDisk * radius) : radius,
+    check(robot.start.position, least_disk(robot.radius, conditions_.wall_overlap),
           {ProblemFault::Kind::start_in_obstacle, index, 0, 0.0, 0, 0.0, robot.radius});
     double arrives = robot.radius;
     StopStride stride(stop_, kGoalsBetweenPolls);
@@ -346,7 +354,8 @@ class FaultSearch {
       if (robot.goal_at(k).anywhere) continue;
       const double leaves = robot.goal_at(k).radius_after.value_or(arrives);
       const double larger = std::max(arrives, leaves);
-      check(robot.goal_at(k).position, clear(larger),
+      const bool stays = k + 1 == robot.goal_count() || conditions_.one_at_a_time;
+      check(robot.goal_at(k).position, least_disk(larger, stays ? conditions_.wall_overlap_at_goal : 0.0),
             {ProblemFault::Kind::goal_in_obstacle, index, 0, 0.0, k, 0.0, larger});
       arrives = leaves;
     }
@@ -391,7 +400,8 @@ ProblemFaults unfinished() {
 ProblemConditions conditions_of(const PlanOptions& options) {
   ProblemConditions conditions;
   conditions.pair_overlap = std::max(0.0, options.start_overlap - 2.0 * options.inflation);
-  conditions.wall_overlap = std::max(0.0, options.start_overlap - options.inflation);
+  conditions.wall_overlap = std::max(0.0, options.overlap_at_start() - options.inflation);
+  conditions.wall_overlap_at_goal = std::max(0.0, options.goal_overlap - options.inflation);
   conditions.inflation = options.inflation;
   return conditions;
 }

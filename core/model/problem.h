@@ -47,13 +47,16 @@ struct ProblemFaults {
   bool finished = true;  // false when the stop condition was met first; then there may be more
 };
 
-/// How much the starts of a problem may overlap, what moves besides its robots, and the zones.
+/// How much the starts and last goals of a problem may overlap, what moves besides its robots, and the zones.
 struct ProblemConditions {
   std::vector<MovingObstacle> obstacles = {};
   std::vector<Zone> zones = {};
   /// Metres: two bare disks, or a bare disk and a wall, may overlap by so much at the start. 0: contact only.
   double pair_overlap = 0.0;
   double wall_overlap = 0.0;
+  /// Metres: a bare disk may overlap a wall by so much at the last goal, where it stays, and in committed
+  /// motion, which may lead there. 0: contact only.
+  double wall_overlap_at_goal = 0.0;
   double inflation = 0.0;  // metres, of the plan: with it, robots leave zones and are clear of them
   /// Each robot is alone on the map, as the others are there at other times: they are not compared.
   bool one_at_a_time = false;
@@ -61,12 +64,13 @@ struct ProblemConditions {
   bool list_faults_of_every_robot = false;
 };
 
-/// Returns the conditions that follow from options: how much starts may overlap, and the inflation.
+/// Returns the conditions that follow from options: how much starts and last goals may overlap, and the
+/// inflation.
 ProblemConditions conditions_of(const PlanOptions& options);
 
 /// A map and robots that can be planned for. A problem that exists is valid: radii and speeds are positive
 /// and finite, every start and goal is clear of obstacles by the bare radius, no two starts and no two last
-/// goals overlap (by more than kContactTolerance, or starts by more than the conditions allow), and committed
+/// goals overlap (by more than kContactTolerance, or by more than the conditions allow), and committed
 /// motion collides with nothing that is certain. The planner relies on this and does not check it again.
 /// Robots with Robot::invalid are exempt. Starts, goals and committed motion may be inside of zones that may
 /// be left (Zone::may_leave). Goals that are put off are no goals of the problem's robots (PostponedGoals).

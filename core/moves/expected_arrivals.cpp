@@ -300,7 +300,7 @@ class ExpectedArrivals {
       if (std::exchange(label(here).closed, true)) continue;
       const Label from = label(here);
       vertices.for_each_neighbour(here, [&](int next) {
-        if (label(next).closed || !vertices.allow(here, next)) return;
+        if (label(next).closed || !vertices.allow(here, next) || !vertices.may_visit(next, goal)) return;
         const TimedSegment move = lattice_move(vertices, here, next, from.time);
         double cost = from.cost + move.duration();
         for_each_entered(robot, stage, move,

@@ -101,6 +101,7 @@ class PlansThatHold {
     rules.interval_margin = options_.interval_margin;
     rules.wait_before_move = options_.wait_before_move;
     rules.start_overlap = options_.start_overlap;
+    rules.goal_overlap = options_.goal_overlap;
     rules.exact_commitments = true;
     return verify({problem_.grid(), robots_, problem_.obstacles(), &problem_.zones()}, plans, rules, stop_);
   }

@@ -80,7 +80,8 @@ bool give_up_poses(const Plan& plan, PlanTask& task, const StopCondition& stop) 
     robots.push_back(robot);
     for (std::size_t k = 0; k < open.goals[robot].size(); ++k) places.push_back({robot, k});
   }
-  widen_goals(task.problem.map(), task.problem.zones(), open.robots, open.goals, places, stop);
+  const double overlap = conditions_of(task.options).wall_overlap_at_goal;
+  widen_goals(task.problem.map(), task.problem.zones(), overlap, open.robots, open.goals, places, stop);
   bool any = false;
   for (const std::size_t robot : robots) any = core::give_up_poses(open.goals[robot]) || any;
   return any;

@@ -179,7 +179,8 @@ Successors::EdgeRange Successors::add_edges(LabelId from) {
   const Vertices& view = vertices(stage);
   if (view.any_angle()) add_edge_to_goal(from);
   view.for_each_neighbour(vertex, [&](int neighbour) {
-    if (!view.allow(vertex, neighbour)) return;
+    if (!view.allow(vertex, neighbour) || !view.may_visit(neighbour, goals_.stage(stage).goal_pose.vertex))
+      return;
     const PlaceId target = place_of(neighbour, stage);
     if (state_.places[target].never_safe()) return;
     // With inertia, a stop in a straight line costs time, on any lattice.

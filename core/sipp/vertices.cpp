@@ -65,9 +65,7 @@ int OwnVertices::add_start_at(const Position& position, std::size_t robot) {
   const double deficit = std::max(robot_radius_ - radius, too_near);
   const int vertex = lattice_vertex_at(position);
   if (vertex >= 0 && radius == robot_radius_ && deficit <= kContactTolerance) return vertex;
-  // Two metres for one that is missing: the way need not lead straight away from the others.
-  const double reach =
-      std::min(kLinkDistance * lattice_.spacing() + 2.0 * deficit, kLongestLink * lattice_.spacing());
+  const double reach = reach_with(deficit);
   return add({position, radius, deficit <= kContactTolerance ? kForever : reach, {}}, reach);
 }
 
@@ -100,13 +98,25 @@ int OwnVertices::add_way_out(const Position& start_position, const std::vector<P
   return start;
 }
 
-int OwnVertices::add_goal(std::size_t robot, const Position& goal) {
-  const double radius = radius_at_goal(instance_, robot, goal, stage_);
+int OwnVertices::add_goal(std::size_t robot, const Position& goal, double overlap) {
+  const double radius = radius_at_goal(instance_, robot, goal, stage_, overlap);
   const int vertex = lattice_vertex_at(goal);
   if (vertex >= 0 && radius == robot_radius_) return vertex;
   const int own = own_vertex_at(goal);
-  if (own >= 0) return own;
-  return add({goal, radius, kForever, {}}, kLinkDistance * lattice_.spacing());
+  if (own >= 0 && !is_only_left(own)) return own;
+  const double deficit = robot_radius_ - radius;
+  if (overlap <= 0.0 || deficit <= 2.0 * kContactTolerance) {
+    return add({goal, radius, kForever, {}}, kLinkDistance * lattice_.spacing());
+  }
+  const double reach = reach_with(deficit);
+  never_left_ = add({goal, radius, reach, {}}, reach);
+  return never_left_;
+}
+
+/// How far an own vertex is linked to others, metres, where so much of the disk is missing: two metres for
+/// one, as the way need not be the straight one to where the disk is clear.
+double OwnVertices::reach_with(double deficit) const {
+  return std::min(kLinkDistance * lattice_.spacing() + 2.0 * deficit, kLongestLink * lattice_.spacing());
 }
 
 /// Adds an own vertex; where that has no links, also vertices that lead to others.
@@ -135,8 +145,9 @@ int OwnVertices::add_linked(OwnVertex own, double reach) {
   }
   const int id = end();
   for (std::size_t k = 0; k < own_.size(); ++k) {  // start and goal near each other
-    const bool near = (own_[k].position - own.position).norm() <= reach;
-    if (!near || !may_move(own, own_[k].position, own_[k].radius)) continue;
+    const double distance = (own_[k].position - own.position).norm();
+    if (distance <= kSamePosition || distance > reach || !may_move(own, own_[k].position, own_[k].radius))
+      continue;
     own.links.push_back(first_ + static_cast<int>(k));
     own_[k].links.push_back(id);
   }
@@ -173,6 +184,7 @@ bool OwnVertices::is_linked(const OwnVertex& own, int vertex) {
 bool OwnVertices::is_free(int from, int to) const {
   if (is_inside(from) || is_inside(to)) return leads_out(from, to);
   if (!contains(from)) return may_move(at(to), position_of_any(from), robot_radius_);
+  if (is_only_entered(to)) return may_move(at(to), position(from), at(from).radius);
   return may_move(at(from), position_of_any(to), contains(to) ? at(to).radius : robot_radius_);
 }
 
@@ -193,7 +205,7 @@ Vertices::Vertices(const Instance& instance, std::size_t robot, std::size_t stag
 
 Vertices::Vertices(const Instance& instance, std::size_t robot, const Goal& goal)
     : Vertices(instance, robot, std::size_t{0}) {
-  goals_.push_back({own_.add_goal(robot, goal.position), goal.theta});
+  goals_.push_back({own_.add_goal(robot, goal.position, instance.options().goal_overlap), goal.theta});
 }
 
 void Vertices::replace_start(const Instance& instance, std::size_t robot) {
@@ -226,8 +238,10 @@ Vertices::Vertices(const Instance& instance, std::size_t robot, const Itinerary&
       continue;
     }
     const bool is_here = views.number(k) == own || views.number(k + 1) == own;
-    const bool at_start = start_ >= 0 && (goal.position - itinerary.pose.position).norm() <= same;
-    const int vertex = at_start ? start_ : is_here ? own_.add_goal(robot, goal.position) : -1;
+    const bool at_start = start_ >= 0 && (k == 0 || !own_.is_only_left(start_)) &&
+                          (goal.position - itinerary.pose.position).norm() <= same;
+    const double overlap = k + 1 == itinerary.goals.size() ? instance.options().goal_overlap : 0.0;
+    const int vertex = at_start ? start_ : is_here ? own_.add_goal(robot, goal.position, overlap) : -1;
     goals_.push_back({vertex, goal.theta});
     same = kSamePosition;
   }

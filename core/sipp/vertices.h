@@ -26,7 +26,8 @@ class Instance;
 /// vertices of that, which they are linked to: to all in sight within two spacings. A start or goal that is
 /// too near to a wall or to another robot's start is an own vertex, too. At such a vertex the robot keeps the
 /// distance from walls that it has there, and from a start it is linked to vertices that are far enough away
-/// to be clear. A start that is too near to a wall is left once, and never entered again. So are the start
+/// to be clear. A start that is too near to a wall is left once, and never entered again; a last goal that is
+/// so is entered once, and never left again, even where both are the same place. Like such a start are that
 /// inside of a zone that the robot may leave, and the places on its way out (see Leaving), which are own
 /// vertices, each linked to the next one only.
 class OwnVertices {
@@ -38,8 +39,9 @@ class OwnVertices {
   int add_start(std::size_t robot);
   /// Removes what the latest call, add_start(), has added.
   void remove_start();
-  /// Adds a goal of this robot, if it is neither on the lattice nor known; returns its vertex.
-  int add_goal(std::size_t robot, const Position& goal);
+  /// Adds a goal of this robot, if it is neither on the lattice nor known; returns its vertex. It may overlap
+  /// a wall by so much, metres: more than 0 for the last goal only.
+  int add_goal(std::size_t robot, const Position& goal, double overlap);
 
   /// Vertices from here on are own ones.
   int first() const { return first_; }
@@ -60,8 +62,13 @@ class OwnVertices {
   /// Returns whether obstacles leave the straight line between two vertices, at least one of which is an own
   /// one, free for the robot.
   bool is_free(int from, int to) const;
-  /// Whether the straight move leads back to a start that is only left.
-  bool leads_back(int from, int to) const { return to == never_entered_ && from != to; }
+  /// Whether the straight move leads back to a start that is only left, or on from a goal that is only
+  /// entered.
+  bool leads_back(int from, int to) const {
+    return from != to && (is_only_left(to) || is_only_entered(from));
+  }
+  bool is_only_left(int vertex) const { return vertex == never_entered_; }
+  bool is_only_entered(int vertex) const { return vertex == never_left_; }
   /// Whether a vertex is on the way out of zones, and not yet outside.
   bool is_inside(int vertex) const { return vertex >= first_inside_ && vertex < end_inside_; }
   /// Whether the move follows the way out of zones.
@@ -85,6 +92,7 @@ class OwnVertices {
   int lattice_vertex_at(const Position& position) const;
   int own_vertex_at(const Position& position) const;
 
+  double reach_with(double deficit) const;
   int add_start_at(const Position& position, std::size_t robot);
   int add_way_out(const Position& start, const std::vector<Position>& way);
   int add(const OwnVertex& own, double reach);
@@ -104,6 +112,7 @@ class OwnVertices {
   int end_inside_ = 0;
   int outside_ = -1;
   int never_entered_ = -1;  // the start, if it is too near to a wall
+  int never_left_ = -1;     // the last goal, if it is so
 };
 
 /// The vertices that the robot may stop at, and the straight moves between them: those of the lattice, those
@@ -158,8 +167,12 @@ class Vertices {
     return on_lattice ? lattice_.between(from, to) : Displacement::between(position(from), position(to));
   }
 
-  /// Returns whether the straight move does not lead back to a start that is too near to a wall, nor into a
-  /// zone that the robot has to leave, and one-way zones allow it.
+  /// Whether the robot may come to a vertex on its way to a goal: a last goal that is too near to a wall is
+  /// on the way to none.
+  bool may_visit(int vertex, int goal) const { return vertex == goal || !own_.is_only_entered(vertex); }
+
+  /// Returns whether the straight move does not lead back to a start that is too near to a wall, or on from
+  /// such a goal, nor into a zone that the robot has to leave, and one-way zones allow it.
   bool allow(int from, int to) const {
     if (own_.leads_back(from, to)) return false;
     if (own_.is_inside(from) || own_.is_inside(to)) return from == to || own_.leads_out(from, to);

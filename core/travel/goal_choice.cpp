@@ -179,7 +179,7 @@ std::vector<Zone> zones_of(const std::vector<Zone>& zones, const std::vector<std
 /// Which of all poses of open goals have a place for their robots.
 class PoseCheck {
  public:
-  PoseCheck(const std::shared_ptr<const StaticMap>& map, const std::vector<Zone>& zones,
+  PoseCheck(const std::shared_ptr<const StaticMap>& map, const std::vector<Zone>& zones, double overlap,
             const std::vector<Robot>& robots, const OpenGoals& open, const StopCondition& stop)
       : map_(map), stop_(stop) {
     for (std::size_t robot = 0; robot < robots.size(); ++robot) {
@@ -193,6 +193,9 @@ class PoseCheck {
           disk.linear_speed = disk.angular_speed = 1.0;
           disk.start = {pose.position, 0.0};
           stands_for_.push_back(robot);
+          const bool may_overlap = overlap > 0.0 && stays_at(robots[robot], goal.goal);
+          const double least = std::max(disk.radius - overlap, kSmallestDisk * disk.radius);
+          least_radii_.push_back(may_overlap ? least : disk.radius);
         }
       }
     }
@@ -201,7 +204,10 @@ class PoseCheck {
 
   /// By pose: the disk overlaps an obstacle or a blocked zone that nobody may leave.
   std::vector<bool> blocked() const {
-    return faulty(disks_, zones_, [](const ProblemFault&) { return true; });
+    std::vector<Robot> disks = disks_;
+    // Bounded: the poses of open goals.
+    for (std::size_t k = 0; k < disks.size(); ++k) disks[k].radius = least_radii_[k];
+    return faulty(std::move(disks), zones_, [](const ProblemFault&) { return true; });
   }
 
   /// By pose: a goal there would be put off, because of a zone that nobody enters.
@@ -235,15 +241,17 @@ class PoseCheck {
   const StopCondition& stop_;
   std::vector<Robot> disks_;             // one for each pose, where it starts
   std::vector<std::size_t> stands_for_;  // by disk: its robot
+  std::vector<double> least_radii_;      // by disk, metres: as much of it as may overlap nothing
   std::vector<Zone> zones_;              // for the disks
 };
 
 }  // namespace
 
 std::vector<OpenPlace> leave_out_blocked_poses(const std::shared_ptr<const StaticMap>& map,
-                                               const std::vector<Zone>& zones, std::vector<Robot>& robots,
-                                               OpenGoals& open, const StopCondition& stop) {
-  const PoseCheck check(map, zones, robots, open, stop);
+                                               const std::vector<Zone>& zones, double overlap,
+                                               std::vector<Robot>& robots, OpenGoals& open,
+                                               const StopCondition& stop) {
+  const PoseCheck check(map, zones, overlap, robots, open, stop);
   const std::vector<bool> is_blocked = check.blocked();
   const std::vector<bool> is_closed = check.closed();
   if (stop.met()) return {};
@@ -281,7 +289,7 @@ std::vector<OpenPlace> choose_by_distance(std::vector<Robot>& robots, OpenGoals&
   return choose_poses(robots, open, times_of, stop).value_or(std::vector<OpenPlace>());
 }
 
-bool widen_goals(const std::shared_ptr<const StaticMap>& map, const std::vector<Zone>& zones,
+bool widen_goals(const std::shared_ptr<const StaticMap>& map, const std::vector<Zone>& zones, double overlap,
                  std::vector<Robot>& robots, OpenGoals& open, const std::vector<OpenPlace>& places,
                  const StopCondition& stop) {
   std::vector<OpenPlace> widened;
@@ -299,7 +307,7 @@ bool widen_goals(const std::shared_ptr<const StaticMap>& map, const std::vector<
     wider[place.robot].push_back(goal);
   }
   if (widened.empty()) return false;
-  leave_out_blocked_poses(map, zones, robots, wider, stop);
+  leave_out_blocked_poses(map, zones, overlap, robots, wider, stop);
   std::vector<std::size_t> next(open.size(), 0);
   for (const OpenPlace& place : widened) {
     open[place.robot][place.open] = std::move(wider[place.robot][next[place.robot]++]);
@@ -339,8 +347,9 @@ std::vector<OpenPlace> crowded_goals(const std::vector<Robot>& robots, const Ope
 }  // namespace
 
 std::vector<WithoutPose> choose_without_search(const std::shared_ptr<const StaticMap>& map,
-                                               const std::vector<Zone>& zones, std::vector<Robot>& robots,
-                                               OpenGoals& open, const StopCondition& stop) {
+                                               const std::vector<Zone>& zones, const PlanOptions& options,
+                                               std::vector<Robot>& robots, OpenGoals& open,
+                                               const StopCondition& stop) {
   for (std::size_t k = 0; k < robots.size(); ++k) {
     if (stop.met()) return {};
     if (robots[k].invalid) open[k].clear();
@@ -356,13 +365,17 @@ std::vector<WithoutPose> choose_without_search(const std::shared_ptr<const Stati
       if (!keeps_its_own) without.push_back({place, any_fits});
     }
   };
-  const std::vector<OpenPlace> blocked = leave_out_blocked_poses(map, zones, robots, open, stop);
+  const double overlap = conditions_of(options).wall_overlap_at_goal;
+  const std::vector<OpenPlace> blocked = leave_out_blocked_poses(map, zones, overlap, robots, open, stop);
   add(blocked, false);
   if (!without.empty() || stop.met()) return without;
-  widen_goals(map, zones, robots, open, blocked, stop);
+  widen_goals(map, zones, overlap, robots, open, blocked, stop);
   std::vector<OpenPlace> taken = choose_by_distance(robots, open, stop);
+  const auto widen_crowded = [&] {
+    return widen_goals(map, zones, overlap, robots, open, crowded_goals(robots, open, stop), stop);
+  };
   // Bounded: each goal is widened once.
-  while (!stop.met() && widen_goals(map, zones, robots, open, crowded_goals(robots, open, stop), stop)) {
+  while (!stop.met() && widen_crowded()) {
     taken = choose_by_distance(robots, open, stop);
   }
   add(taken, true);

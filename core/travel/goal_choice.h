@@ -24,13 +24,14 @@ struct OpenFleet {
   OpenGoals goals;            // by robot
 };
 
-/// Leaves out the poses at which the disk of the robot overlaps an obstacle or a blocked zone. A goal that
-/// would have none keeps them all, and is returned. Poses at which a goal would be put off, because of a zone
-/// that nobody enters, become the last ones to be chosen. Settled goals stay as they are, and all do if
-/// `stop` is met first.
+/// Leaves out the poses at which the disk of the robot overlaps an obstacle or a blocked zone, or at last
+/// goals overlaps it by more than `overlap` (metres, of the bare disk). A goal that would have none keeps
+/// them all, and is returned. Poses at which a goal would be put off, because of a zone that nobody enters,
+/// become the last ones to be chosen. Settled goals stay as they are, and all do if `stop` is met first.
 std::vector<OpenPlace> leave_out_blocked_poses(const std::shared_ptr<const StaticMap>& map,
-                                               const std::vector<Zone>& zones, std::vector<Robot>& robots,
-                                               OpenGoals& open, const StopCondition& stop);
+                                               const std::vector<Zone>& zones, double overlap,
+                                               std::vector<Robot>& robots, OpenGoals& open,
+                                               const StopCondition& stop);
 
 /// Chooses poses for the goals that are not settled as if there were nothing but straight lines. Robots that
 /// stay at their last goals get poses where they do not overlap, those of all robots the nearest ones in sum.
@@ -47,11 +48,12 @@ struct WithoutPose {
 /// Chooses poses for the goals of robots as far as that takes no search: those at which committed and
 /// previous actions serve them, which settles them, and others by leave_out_blocked_poses() and
 /// choose_by_distance(). Goals with a tolerance are widened where their own pose is of no use; if that does
-/// not help, they keep it. Goals of robots that are invalid are no longer open. Returns those without a pose;
-/// not all of them if `stop` is met first.
+/// not help, they keep it. Goals of robots that are invalid are no longer open. Of the options, those count
+/// by which last goals may overlap. Returns the goals without a pose; not all of them if `stop` is met first.
 std::vector<WithoutPose> choose_without_search(const std::shared_ptr<const StaticMap>& map,
-                                               const std::vector<Zone>& zones, std::vector<Robot>& robots,
-                                               OpenGoals& open, const StopCondition& stop);
+                                               const std::vector<Zone>& zones, const PlanOptions& options,
+                                               std::vector<Robot>& robots, OpenGoals& open,
+                                               const StopCondition& stop);
 
 /// Chooses poses again by when the robots would arrive, each alone on the map (see arrivals()): for last
 /// goals those of the least sum of weighted arrivals and biases; for others one robot after the other, which
@@ -63,8 +65,8 @@ std::optional<Problem> choose_by_arrival(const Problem& problem, const PlanOptio
                                          const StopCondition& stop, Executor& executor);
 
 /// Widens these goals as far as they may be, the first hundred of a fleet, and leaves out the poses that do
-/// not fit. Returns whether there is any.
-bool widen_goals(const std::shared_ptr<const StaticMap>& map, const std::vector<Zone>& zones,
+/// not fit (see leave_out_blocked_poses). Returns whether there is any.
+bool widen_goals(const std::shared_ptr<const StaticMap>& map, const std::vector<Zone>& zones, double overlap,
                  std::vector<Robot>& robots, OpenGoals& open, const std::vector<OpenPlace>& places,
                  const StopCondition& stop);
 

@@ -52,7 +52,8 @@ class Travels {
   std::vector<std::optional<Travel>> column(const TravelQuestions::Column& asked,
                                             const std::vector<bool>& any_heading, const StopCondition& stop) {
     std::vector<std::optional<Travel>> ways(asked.robots.size());
-    if (asked.robots.empty() || !fits_at(instance_, asked.robots.front(), asked.goal.position)) return ways;
+    if (asked.robots.empty() || !may_stay_at(instance_, asked.robots.front(), asked.goal.position))
+      return ways;
     SearchSpace space(instance_, asked.robots.front(), asked.goal);
     for (std::size_t k = 0; k < ways.size() && !stop.met(); ++k) {
       const std::size_t robot = asked.robots[k];

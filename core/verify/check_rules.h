@@ -2,6 +2,7 @@
 
 // The input of a check, which is the fleet, the rules and the tolerances; and the violations that it finds.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -55,6 +56,9 @@ struct CheckRules {
   double wait_before_move = 0.0;  // seconds: every translation follows a stand-still of this duration
   /// Metres by which robots may overlap each other or a wall at their start, inflation included.
   double start_overlap = 0.0;
+  /// Metres by which robots may overlap a wall at their last goal, inflation included, and in their
+  /// commitment; so at their start, too.
+  double goal_overlap = 0.0;
   /// Seconds: a plan that ends at this time or later may end anywhere, with goals left. nullopt: all plans
   /// lead to the goal.
   std::optional<double> horizon = {};
@@ -63,6 +67,9 @@ struct CheckRules {
   /// Unavoidable collisions that are allowed: of exactly the pair of each collision, during the one
   /// uninterrupted overlap that contains UnavoidableCollision::t (of the bare disks; contact counts).
   std::vector<UnavoidableCollision> exempt = {};
+
+  /// Metres by which robots may overlap at their start, by both options.
+  double overlap_at_start() const { return std::max(start_overlap, goal_overlap); }
 };
 
 /// The maximum number of overlaps of robots in a report. Many robots in one place have millions of them.

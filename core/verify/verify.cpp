@@ -370,13 +370,22 @@ class FleetCheck {
     const auto distance_from = [&](const Position& position, double reach) {
       return zones.distance_to_blocked(position, distance_from_walls(field, position, reach));
     };
+    const bool ends_in_goal = plan != nullptr && stays_at_last_goal(checked_.robots[index], legs, tolerance);
     const std::vector<double> kept =
-        distances_to_keep(distance_from, radii, legs, handover, tolerance.metres, rules_);
+        distances_to_keep(distance_from, radii, legs, handover, ends_in_goal, tolerance.metres, rules_);
     violations_.add(check_obstacles(field, index, kept, legs, tolerance.metres, stop_));
     if (zones.empty()) return;
     violations_.add(zones.check_blocked(kept, legs, handover, tolerance.metres, stop_));
     violations_.add(
         zones.check_driving(plan != nullptr ? plan->actions : robot.committed, loads, tolerance, stop_));
+  }
+
+  /// Whether the robot ends where it is to stay for good.
+  static bool stays_at_last_goal(const Robot& robot, const std::vector<Leg>& legs,
+                                 const Tolerance& tolerance) {
+    if (!robot.goal || robot.yields()) return false;
+    const double metres = std::max(tolerance.metres, kContactTolerance);
+    return (legs.back().to - robot.goal->position).norm() <= metres;
   }
 
   void add_to_fleet(const Robot& robot, const RobotPlan* plan, SizedLegs body, const Handover& handover,
@@ -432,6 +441,7 @@ std::optional<VerifyReport> check_plan(const Problem& problem, const PlanOptions
   CheckRules rules{plan_tolerances(problem.grid(), problem.robots(), plan.plans)};
   rules.interval_margin = options.interval_margin;
   rules.start_overlap = options.start_overlap;
+  rules.goal_overlap = options.goal_overlap;
   rules.horizon = options.horizon;
   rules.exact_commitments = true;
   rules.exempt = plan.unavoidable;

@@ -59,6 +59,9 @@ struct Options {
   double interval_margin = 0.0;
   /// Metres, >= 0, by which measured starts may overlap each other or a wall, inflation included.
   double start_overlap = 0.0;
+  /// Metres, >= 0, by which robots may overlap a wall at their last goals, inflation included, where they
+  /// stay, as in docks; and so where they start the next time.
+  double goal_overlap = 0.0;
   /// Metres between the points at which robots may stop besides starts and goals. None: chosen by the map and
   /// the robot's radius.
   std::optional<double> lattice_spacing = {};

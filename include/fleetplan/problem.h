@@ -16,8 +16,9 @@ namespace fleetplan {
 /// A problem is valid if
 ///
 /// - all numbers are in their ranges (limits.h) and the lists are as their types describe,
-/// - the disk of every robot is clear of blocked cells and zones at its start and goals,
-/// - no two starts and no two last goals overlap, apart from Options::start_overlap,
+/// - the disk of every robot is clear of blocked cells and zones at its start and goals, apart from
+///   Options::start_overlap and Options::goal_overlap,
+/// - no two starts and no two last goals overlap, apart from these,
 /// - committed motion collides with nothing that is certain: walls, other committed motion, parked robots.
 ///
 /// Overlaps of up to 5e-7 m are contact, and contact is allowed.

@@ -49,6 +49,7 @@ struct Rules {
   double interval_margin = 0.0;        // seconds, as in Options
   double wait_before_move = 0.0;       // seconds, as in Options
   double start_overlap = 0.0;          // metres, as in Options
+  double goal_overlap = 0.0;           // metres, as in Options
   std::optional<double> horizon = {};  // seconds, as in Options: plans that end later may end anywhere
   std::vector<UnavoidableCollision> unavoidable = {};  // collisions that are allowed, as in Plan
   std::vector<std::size_t> invalid = {};  // robots that stand at their starts, see Options::invalid_robots

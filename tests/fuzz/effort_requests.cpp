@@ -196,6 +196,7 @@ void add_members(Json& request, Choices& choices) {
   Json& options = request["options"];
   if (choices.yes()) options["horizon"] = choices.one_of(std::array{0.1, 10.0, 1e3});
   if (choices.yes()) options["start_overlap"] = choices.one_of(std::array{0.01, 1.0, 1e6});
+  if (choices.yes()) options["goal_overlap"] = choices.one_of(std::array{0.01, 1.0, 1e6});
   if (choices.yes()) options["interval_margin"] = choices.one_of(std::array{0.01, 1.0, 100.0});
   if (choices.yes()) options["dependencies"] = true;
   if (choices.yes()) request["robot_defaults"]["vicinity"] = choices.one_of(std::array{0.01, 5.0, 1e3});

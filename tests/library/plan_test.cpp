@@ -265,6 +265,7 @@ TEST(PublicOptions, HaveTheDefaultsOfTheService) {
   EXPECT_EQ(own.replan, service.replan);
   EXPECT_EQ(own.interval_margin, service.interval_margin);
   EXPECT_EQ(own.start_overlap, service.start_overlap);
+  EXPECT_EQ(own.goal_overlap, service.goal_overlap);
   EXPECT_EQ(own.lattice_spacing, service.lattice_spacing);
   EXPECT_EQ(own.horizon, service.horizon);
   EXPECT_EQ(own.max_iterations, service.max_iterations);

@@ -200,11 +200,11 @@ async function expectSound({ options = {}, unavoidable: earlier, ...fleet }, ans
     all.filter((id) => planned.includes(id)),
   );
   expectBounded(answer);
-  const { start_overlap, invalid_robots, horizon } = options; // what the check depends on
+  const { start_overlap, goal_overlap, invalid_robots, horizon } = options; // what the check depends on
   const verdict = await client.post("/v1/validate", {
     ...fleet,
     ...answer,
-    options: { start_overlap, invalid_robots, horizon, time_budget_ms: 1000 },
+    options: { start_overlap, goal_overlap, invalid_robots, horizon, time_budget_ms: 1000 },
   });
   assert.deepEqual(verdict.json.violations, []);
 }

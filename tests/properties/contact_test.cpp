@@ -22,6 +22,7 @@
 #include "core/verify/pairs/fleet_clearance.h"
 #include "core/verify/verify.h"
 #include "tests/support/expect_safe.h"
+#include "tests/support/moving_fleet.h"
 #include "tests/support/plain_check.h"
 #include "tests/support/random_problem.h"
 #include "tests/support/step_limit.h"
@@ -377,6 +378,82 @@ TEST_P(StartsInWalls, AreLeftForGood) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, StartsInWalls, testing::Range(0, 20));
+
+/// Robots on few cells, with goals and starts in walls by up to so much, metres, that come from goals before
+/// and return to their starts, with loads.
+support::FleetRequest crowd_with_goals_in_walls(Dice& dice, double depth) {
+  OccupancyGrid grid(9, 4, 0.5);
+  for (int k = 0; k < 6; ++k) grid.block({dice.below(9), dice.below(4)});
+  const auto at_wall = [&](double radius) {
+    Position place(dice.between(0.1, 4.4), dice.between(0.1, 1.9));
+    for (int k = 0; k < 200; ++k) {
+      const double gap = obstacle_distance(grid, place, 1.0) - radius;
+      if (gap >= -depth && gap < 0.02) break;
+      place = Position(dice.between(0.1, 4.4), dice.between(0.1, 1.9));
+    }
+    return place;
+  };
+  std::vector<Robot> robots;
+  for (int k = 0; k < 5; ++k) {
+    const double radius = dice.between(0.12, 0.22);
+    Robot robot{std::to_string(k),
+                radius,
+                dice.between(0.2, 3.0),
+                dice.between(0.5, 3.0),
+                {at_wall(radius), dice.between(-kPi, kPi)},
+                Goal{at_wall(radius), {}}};
+    if (dice.chance(0.3)) robot.goal->theta = dice.between(-kPi, kPi);
+    if (dice.chance(0.3)) robot.goal->radius_after = radius * dice.between(0.8, 1.05);
+    if (dice.chance(0.4)) robot.via.push_back(Goal{grid.center({dice.below(9), dice.below(4)}), {}});
+    if (!robot.via.empty() && dice.chance(0.3))
+      robot.via.back().radius_after = radius * dice.between(0.8, 1.2);
+    if (dice.chance(0.3)) robot.goal = Goal{robot.start.position, {}};
+    robot.may_reverse = dice.chance(0.3);
+    robots.push_back(robot);
+  }
+  return {grid, std::move(robots), {}, {}};
+}
+
+class GoalsInWalls : public testing::TestWithParam<int> {};
+
+TEST_P(GoalsInWalls, AreEnteredAtLast) {
+  SCOPED_TRACE(testing::Message() << "seed " << GetParam());
+  Dice dice(static_cast<std::uint64_t>(GetParam()));
+  int entered = 0;
+  for (int made = 0, tries = 0; made < 15 && tries < 20'000; ++tries) {
+    support::FleetRequest request = crowd_with_goals_in_walls(dice, 0.05);
+    PlanOptions& options = request.options;
+    options.inflation = dice.chance(0.3) ? dice.between(0.0, 0.03) : 0.0;
+    options.goal_overlap = 0.05 + options.inflation;
+    if (dice.chance(0.2)) options.interval_margin = dice.between(0.0, 1.0);
+    if (dice.chance(0.3)) options.horizon = dice.between(0.5, 10.0);
+    if (dice.chance(0.2)) options.connectivity = 16;
+    options.any_angle = dice.chance(0.8);
+    options.mode = dice.chance(0.3) ? PlanOptions::Mode::anytime : PlanOptions::Mode::first;
+    options.max_iterations = 5;
+    const auto whole = support::problem_of(request);
+    // Those that can start together.
+    while (!whole && request.robots.size() > 2 && !support::problem_of(request)) request.robots.pop_back();
+    const auto problem = support::problem_of(request);
+    if (!problem) continue;
+    ++made;
+    support::StepLimit limit(kMaxSteps);
+    const Plan plan = core::plan(*problem, options, support::counted(limit));
+    const auto report = check_plan(*problem, options, plan, StopCondition::never());
+    EXPECT_TRUE(report->valid()) << support::text(*report);
+    for (const RobotPlan& one : plan.plans) {
+      EXPECT_GE(one.cost, one.lower_bound - 1e-6) << "robot " << one.robot;
+      const Robot& robot = problem->robots()[one.robot];
+      const double gap = obstacle_distance(problem->grid(), robot.goal->position, 1.0);
+      const bool ends_there =
+          !one.actions.empty() && (one.actions.back().to.position - robot.goal->position).norm() < 1e-6;
+      if (ends_there && gap < robot.radius - 0.01) ++entered;
+    }
+  }
+  EXPECT_GT(entered, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, GoalsInWalls, testing::Range(0, 20));
 
 }  // namespace TEST_FILE
 }  // namespace fleetplan::core

@@ -37,6 +37,7 @@ CheckRules rules_of(const PlanOptions& options) {
   rules.interval_margin = options.interval_margin;
   rules.wait_before_move = options.wait_before_move;
   rules.start_overlap = options.start_overlap;
+  rules.goal_overlap = options.goal_overlap;
   return rules;
 }
 

@@ -54,6 +54,7 @@ inline bool hold(const core::Problem& problem, const core::PlanOptions& options,
   rules.interval_margin = options.interval_margin;
   rules.wait_before_move = options.wait_before_move;
   rules.start_overlap = options.start_overlap;
+  rules.goal_overlap = options.goal_overlap;
   return safety_report(problem, plans, rules).valid();
 }
 

@@ -63,6 +63,7 @@ inline void expect_safe(const core::Problem& problem, const core::Plan& plan,
   rules.interval_margin = options.interval_margin;
   rules.wait_before_move = options.wait_before_move;
   rules.start_overlap = options.start_overlap;
+  rules.goal_overlap = options.goal_overlap;
   rules.exempt = plan.unavoidable;
   const core::VerifyReport report = safety_report(problem, plan.plans, rules);
   EXPECT_TRUE(report.valid()) << text(report);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/geometry/position.h"
+#include "core/geometry/tolerance.h"
 #include "core/map/occupancy_grid.h"
 #include "core/model/loads.h"
 #include "core/model/plan.h"
@@ -77,11 +78,9 @@ struct FleetRequest {
 };
 
 inline std::optional<core::Problem> problem_of(const FleetRequest& request) {
-  core::ProblemConditions conditions;
+  core::ProblemConditions conditions = core::conditions_of(request.options);
   conditions.obstacles = request.obstacles;
   conditions.zones = request.zones;
-  conditions.pair_overlap = std::max(0.0, request.options.start_overlap - 2.0 * request.options.inflation);
-  conditions.wall_overlap = std::max(0.0, request.options.start_overlap - request.options.inflation);
   auto created = core::Problem::create(request.grid, request.robots, std::move(conditions),
                                        core::StopCondition::never());
   auto* valid = std::get_if<core::Problem>(&created);
@@ -105,6 +104,25 @@ inline void overlap_starts(Dice& dice, FleetRequest& request) {
   }
   robot.start.position = start;
   request.options.start_overlap = depth + 2.0 * request.options.inflation;
+}
+
+/// Moves last goals, where robots stay, towards walls and into them.
+inline void push_goals_into_walls(Dice& dice, FleetRequest& request) {
+  constexpr double kStep = 0.05;  // metres
+  for (core::Robot& robot : request.robots) {
+    if (!robot.goal || robot.yields() || !dice.chance(0.5)) continue;
+    const double depth = 0.3 * robot.radius * dice.between(0.0, 1.0);
+    const double kept = robot.radius - depth;
+    const double heading = 0.5 * std::numbers::pi * dice.below(4);
+    const core::Position step = kStep * core::Position(std::cos(heading), std::sin(heading));
+    core::Position goal = robot.goal->position;
+    for (int k = 0; k < 100 && core::obstacle_distance(request.grid, goal, kept) >= kept; ++k) {
+      robot.goal->position = goal;
+      goal += step;
+    }
+    request.options.goal_overlap =
+        std::max(request.options.goal_overlap, depth + request.options.inflation + core::kContactTolerance);
+  }
 }
 
 inline FleetRequest random_request(Dice& dice) {

@@ -24,6 +24,7 @@ const OPTIONS = [
   "inflation",
   "wait_before_move",
   "start_overlap",
+  "goal_overlap",
 ];
 
 /**

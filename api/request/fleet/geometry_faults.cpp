@@ -204,24 +204,39 @@ std::string coordinate_text(double world) {
   return number_text(std::round(world * kDecimals) / kDecimals);
 }
 
-/// Returns what helps a goal at this place of the request that does not fit.
-std::string goal_remedy(const core::ProblemFault& found, const JsonReader& goal, const WorldFrame& frame,
-                        NearestGoals& nearest) {
+/// Whether a disk that overlaps an obstacle has its centre outside of it: an option allows for that.
+bool may_overlap(const core::ProblemFault& found) {
+  return -found.gap < (1.0 - 2.0 * core::kSmallestDisk) * found.radius;
+}
+
+/// Returns the option that allows for the overlap, such as "options.start_overlap of at least 0.05 m".
+std::string overlap_text(const char* option, const core::ProblemFault& found, double inflation) {
+  return std::string("options.") + option + " of at least " + rounded_up(inflation - found.gap) + " m";
+}
+
+/// Returns what helps a goal at this place of the request that does not fit. `stays`: the robot may stay
+/// there, as it is its last one.
+std::string goal_remedy(const core::ProblemFault& found, const JsonReader& goal, bool stays, double inflation,
+                        const WorldFrame& frame, NearestGoals& nearest) {
+  const std::string in_dock = stays && may_overlap(found)
+                                  ? ". If the robot is to stay there, as in a dock, give " +
+                                        overlap_text("goal_overlap", found, inflation) + '.'
+                                  : ".";
   const auto position = position_of(goal);
   const auto place = position ? nearest.of(found, frame.to_map(*position)) : std::nullopt;
-  if (!place) return " Move it, or make the robot smaller.";
+  if (!place) return " Move it, or make the robot smaller" + in_dock;
   const Position world = frame.to_world(*place);
   return " The nearest place that fits is (" + coordinate_text(world.x()) + ", " +
          coordinate_text(world.y()) + "), " + metres((world - *position).norm()) +
-         " away. Move the goal there, or make the robot smaller.";
+         " away. Move the goal there, or make the robot smaller" + in_dock;
 }
 
-/// Returns what helps a start that does not fit. A robot that was measured there stands there.
-std::string start_remedy(const core::ProblemFault& found, double radius, double inflation) {
+/// Returns what helps a start that does not fit. A robot that was measured there stands there. `option`: what
+/// allows for it.
+std::string start_remedy(const core::ProblemFault& found, const char* option, double inflation) {
   std::string text = " If the robot stands there, as in a dock or beside a wall,";
-  const double needed = inflation - found.gap;
-  const bool is_outside = -found.gap < (1.0 - 2.0 * core::kSmallestDisk) * radius;
-  if (is_outside) text += " give options.start_overlap of at least " + rounded_up(needed) + " m";
+  const bool is_outside = may_overlap(found);
+  if (is_outside) text += " give " + overlap_text(option, found, inflation);
   if (found.zone) text += std::string(is_outside ? ", or" : " give") + " the zone \"enter\": false";
   if (!is_outside && !found.zone) return " Move it, or correct the map or the radius.";
   return text + ". Otherwise move it, or make the robot smaller.";
@@ -292,8 +307,8 @@ std::string describe_pose(const core::ProblemFault& found, const JsonReader& pos
                           double inflation, const std::vector<core::Zone>& zones,
                           const core::OccupancyGrid& grid, const WorldFrame& frame, NearestGoals& nearest) {
   const std::string remedy = found.kind == core::ProblemFault::Kind::start_in_obstacle
-                                 ? start_remedy(found, robot.radius, inflation)
-                                 : goal_remedy(found, pose, frame, nearest);
+                                 ? start_remedy(found, "start_overlap", inflation)
+                                 : goal_remedy(found, pose, true, inflation, frame, nearest);
   return in_obstacle("pose", robot.radius, found.gap, obstacle_name(found, zones),
                      outside_text(pose, robot.radius, grid, frame), remedy);
 }
@@ -303,6 +318,11 @@ namespace {
 /// Whether a robot of the fleet stays where it is: it has neither a goal nor motion.
 bool rests(const ParsedRobot& read) {
   return read.goals.empty() && read.committed.size() == 0 && read.idle.value_or(Idle::stay) == Idle::stay;
+}
+
+/// Whether a robot of the fleet stays at this goal.
+bool stays_at(const ParsedRobot& read, std::size_t goal) {
+  return goal + 1 == read.goals.size() && read.idle.value_or(Idle::stay) != Idle::yield;
 }
 
 }  // namespace
@@ -322,14 +342,16 @@ GeometryFault describe(const core::ProblemFault& found, const Fleet& fleet,
   switch (found.kind) {
     case Kind::start_in_obstacle:
       return {read.start, fault::kStartInObstacle,
-              in_obstacle("start of robot " + name, read.robot.radius, found.gap, obstacle,
-                          outside_text(read.start, read.robot.radius, grid, frame),
-                          start_remedy(found, read.robot.radius, inflation))};
+              in_obstacle(
+                  "start of robot " + name, read.robot.radius, found.gap, obstacle,
+                  outside_text(read.start, read.robot.radius, grid, frame),
+                  start_remedy(found, read.returns_to_start ? "goal_overlap" : "start_overlap", inflation))};
     case Kind::goal_in_obstacle:
       return {read.goals[found.goal], fault::kGoalInObstacle,
               in_obstacle(goal_name(read, found.goal) + " of robot " + name, found.radius, found.gap,
                           obstacle, outside_text(read.goals[found.goal], found.radius, grid, frame),
-                          goal_remedy(found, read.goals[found.goal], frame, nearest))};
+                          goal_remedy(found, read.goals[found.goal], stays_at(read, found.goal), inflation,
+                                      frame, nearest))};
     case Kind::starts_overlap:
       return {read.start, fault::kStartsOverlap,
               overlap("starts", other, name, found.gap,

@@ -294,6 +294,7 @@ class PlanOptions(TypedDict, total=False):
     horizon: float | None
     interval_margin: float
     start_overlap: float
+    goal_overlap: float
     invalid_robots: Literal["refuse", "report"]
     lattice_spacing: float | None
     dependencies: bool

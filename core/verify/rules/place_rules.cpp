@@ -52,28 +52,117 @@ double distance_from_walls(const ObstacleField& field, const Position& position,
   return nearest ? nearest->point.distance : reach;
 }
 
-std::vector<double> distances_to_keep(const std::function<double(const Position&, double)>& distance_from,
-                                      const std::vector<double>& radii, const std::vector<Leg>& legs,
-                                      const Handover& handover, double tolerance, const CheckRules& rules) {
-  std::vector<double> kept = radii;
-  if (rules.inflation <= 0.0 && rules.start_overlap <= 0.0) return kept;
-  double reduced = kNone;  // the distance that it keeps until it has been clear
-  bool planned = false;
+namespace {
+
+using DistanceFrom = std::function<double(const Position&, double)>;
+
+/// What a robot keeps from obstacles in its legs, metres, where it neither leaves nor enters an overlap.
+std::vector<double> full_distances(const std::vector<double>& radii, const std::vector<Leg>& legs,
+                                   const Handover& handover, const CheckRules& rules) {
+  std::vector<double> full = radii;
   for (std::size_t k = 0; k < legs.size(); ++k) {
-    const double radius = radii[k];
-    const double inflated = radius + rules.inflation;
-    const double full = handover.commits(legs[k].t_end) ? radius : inflated;
-    const bool begins_to_plan = !planned && !handover.commits(legs[k].t_end);
-    planned = planned || begins_to_plan;
-    if (k == 0 || begins_to_plan) {
-      const double here = distance_from(legs[k].from, full);
-      const bool measured = k == 0 && inflated - here <= rules.start_overlap + tolerance;
-      if (here < full && (measured || here >= radius - tolerance)) reduced = std::min(here, reduced);
-    }
-    kept[k] = std::min(full, reduced);
-    if (reduced < full && distance_from(legs[k].to, full) >= full - tolerance) reduced = kNone;
+    if (!handover.commits(legs[k].t_end)) full[k] += rules.inflation;
   }
-  return kept;
+  return full;
+}
+
+/// Whether a robot goes on in a straight line where a leg ends, so that its move is longer than the leg.
+bool goes_on(const std::vector<Leg>& legs, std::size_t k, double tolerance) {
+  if (k + 1 >= legs.size()) return false;
+  const Position way = legs[k].to - legs[k].from;
+  const Position next = legs[k + 1].to - legs[k + 1].from;
+  const double longer = std::max(way.norm(), next.norm());
+  return way.dot(next) > 0.0 && std::abs(cross_product(way, next)) <= tolerance * longer;
+}
+
+/// The distances that a robot keeps from obstacles where it leaves overlaps or enters them, straight from or
+/// to where it is clear.
+class Overlaps {
+ public:
+  Overlaps(const DistanceFrom& distance_from, const std::vector<double>& radii, const std::vector<Leg>& legs,
+           const Handover& handover, double tolerance, const CheckRules& rules)
+      : distance_from_(distance_from),
+        radii_(radii),
+        legs_(legs),
+        tolerance_(tolerance),
+        rules_(rules),
+        full_(full_distances(radii, legs, handover, rules)),
+        kept_(full_) {
+    while (planned_ < legs.size() && handover.commits(legs[planned_].t_end)) ++planned_;
+  }
+
+  /// A robot that begins nearer, or is so when its commitment ends, comes no nearer until it is clear.
+  void let_leave() {
+    double reduced = kNone;  // the distance that it keeps until it has been clear
+    for (std::size_t k = 0; k < legs_.size(); ++k) {
+      if (k == 0 || k == planned_) {
+        const double here = distance_from_(legs_[k].from, full_[k]);
+        const double overlap = radii_[k] + rules_.inflation - here;
+        const double allowed = k == 0 ? rules_.overlap_at_start() : rules_.goal_overlap;
+        const bool may_be_so = overlap <= allowed + tolerance_ || here >= radii_[k] - tolerance_;
+        if (here < full_[k] && may_be_so) reduced = std::min(here, reduced);
+      }
+      kept_[k] = std::min(full_[k], reduced);
+      const bool is_straight_on = goes_on(legs_, k, tolerance_);
+      if (reduced < full_[k] && !is_straight_on && is_clear(legs_[k].to, k)) reduced = kNone;
+    }
+  }
+
+  /// A commitment may be on the way into a last goal, or out of one.
+  void let_commit() {
+    for (std::size_t k = 0; k < planned_; ++k) {
+      const double nearest = radii_[k] + rules_.inflation - rules_.goal_overlap;
+      kept_[k] = std::min(kept_[k], std::max(nearest, kSmallestDisk * radii_[k]));
+    }
+  }
+
+  /// A robot that ends nearer to obstacles comes no nearer than that since it was clear.
+  void let_enter() {
+    const Position& end = legs_.back().to;
+    double largest = 0.0;  // the radius with which it is there
+    for (std::size_t k = legs_.size(); k-- > 0;) {
+      largest = std::max(largest, radii_[k] + rules_.inflation);
+      if (!is_same_position(legs_[k].from, end)) break;
+    }
+    const double here = distance_from_(end, largest);
+    if (largest - here > rules_.goal_overlap + tolerance_) return;
+    for (std::size_t k = legs_.size(); k-- > 0;) {
+      kept_[k] = std::min(kept_[k], here);
+      if (k == 0 || goes_on(legs_, k - 1, tolerance_)) continue;
+      if (is_clear(legs_[k].from, k) && is_clear(legs_[k].from, k - 1)) break;  // with a load, too
+    }
+  }
+
+  std::vector<double> kept() && { return std::move(kept_); }
+
+ private:
+  bool is_clear(const Position& position, std::size_t leg) const {
+    return distance_from_(position, full_[leg]) >= full_[leg] - tolerance_;
+  }
+
+  const DistanceFrom& distance_from_;
+  const std::vector<double>& radii_;  // by leg, as the following
+  const std::vector<Leg>& legs_;
+  double tolerance_;  // metres
+  const CheckRules& rules_;
+  std::vector<double> full_;
+  std::vector<double> kept_;
+  std::size_t planned_ = 0;  // the first leg after the commitment
+};
+
+}  // namespace
+
+std::vector<double> distances_to_keep(const DistanceFrom& distance_from, const std::vector<double>& radii,
+                                      const std::vector<Leg>& legs, const Handover& handover,
+                                      bool ends_in_goal, double tolerance, const CheckRules& rules) {
+  if (rules.inflation <= 0.0 && rules.overlap_at_start() <= 0.0) return radii;
+  Overlaps overlaps(distance_from, radii, legs, handover, tolerance, rules);
+  overlaps.let_leave();
+  if (rules.goal_overlap > 0.0) {
+    overlaps.let_commit();
+    if (ends_in_goal) overlaps.let_enter();
+  }
+  return std::move(overlaps).kept();
 }
 
 ViolationList check_obstacles(const ObstacleField& field, std::size_t robot, const std::vector<double>& radii,

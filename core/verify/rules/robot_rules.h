@@ -67,11 +67,14 @@ double distance_from_walls(const ObstacleField& field, const Position& position,
 
 /// Returns the distance from obstacles that a robot has to keep during each of its legs, metres: its radius
 /// there, and after its commitment the inflated one. A robot that begins nearer, as the rules allow, comes no
-/// nearer than it is until a leg of it ends clear. `distance_from(position, max)` returns the distance of a
+/// nearer than it is until a straight move of it ends clear; one that ends so in its last goal
+/// (`ends_in_goal`) comes no nearer than it is there since a straight move of it began clear. Committed
+/// motion may come as near as a last goal may be. `distance_from(position, max)` returns the distance of a
 /// position from obstacles, at most `max`.
 std::vector<double> distances_to_keep(const std::function<double(const Position&, double)>& distance_from,
                                       const std::vector<double>& radii, const std::vector<Leg>& legs,
-                                      const Handover& handover, double tolerance, const CheckRules& rules);
+                                      const Handover& handover, bool ends_in_goal, double tolerance,
+                                      const CheckRules& rules);
 
 /// Reports where a disk overlaps obstacles by more than the tolerance: one violation for each leg, or one for
 /// consecutive legs through which the overlap continues. `legs` are a result of `execute`; `radii` are those

@@ -50,7 +50,7 @@ Json fleet() {
     "options": {"time_budget_ms": 1000, "seed": 1, "max_iterations": 5, "dependencies": true, "dependency_slack": 0.5,
                 "wait_before_move": 0.1, "inflation": 0.01, "start_safe_interval": 1.0, "horizon": 60.0, "mode": "anytime",
                 "objective": "flowtime", "priority": "longest_first", "reordering": "raise_failed", "any_angle": true,
-                "connectivity": 8, "replan": "all", "interval_margin": 0.0, "start_overlap": 0.0,
+                "connectivity": 8, "replan": "all", "interval_margin": 0.0, "start_overlap": 0.0, "goal_overlap": 0.0,
                 "invalid_robots": "report", "lattice_spacing": null, "execution_margin": 0.01},
     "metadata": {"list": [1, "two"]}})");
 }

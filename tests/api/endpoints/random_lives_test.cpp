@@ -49,7 +49,8 @@ std::set<Pair> named_pairs(const Json& request) {
 }
 
 /// All robots execute what is committed, and stay. The starts are as the request allows.
-void expect_that_all_may_stop(const Json& request, const core::Problem& problem, double start_overlap) {
+void expect_that_all_may_stop(const Json& request, const core::Problem& problem,
+                              const core::PlanOptions& options) {
   std::vector<core::Robot> robots = problem.robots();
   std::vector<core::RobotPlan> stops;
   for (std::size_t k = 0; k < robots.size(); ++k) {
@@ -60,7 +61,8 @@ void expect_that_all_may_stop(const Json& request, const core::Problem& problem,
   }
   core::CheckRules rules;
   rules.tolerances.assign(robots.size(), core::Tolerance::of_all(core::kMaxTolerance));
-  rules.start_overlap = start_overlap;
+  rules.start_overlap = options.start_overlap;
+  rules.goal_overlap = options.goal_overlap;
   rules.horizon = 0.0;  // with goals left
   const auto report = core::verify({problem.grid(), robots, {}, &problem.zones()}, stops, rules,
                                    core::StopCondition::never());
@@ -232,7 +234,7 @@ class Life {
     const auto parsed = parse_request(reply.body, {}, unbounded_work());
     EXPECT_TRUE(parsed) << parsed.failure().detail;
     if (!parsed) return false;
-    expect_that_all_may_stop(request_, parsed->problem, parsed->options.start_overlap);
+    expect_that_all_may_stop(request_, parsed->problem, parsed->options);
     expect_that_the_overlapping_are_named(request_, parsed->problem, body);
     expect_that_they_can_stop(body);
     return true;

@@ -91,7 +91,8 @@ inline Json json_of(const core::PlanOptions& options) {
             {"inflation", options.inflation},
             {"wait_before_move", options.wait_before_move},
             {"interval_margin", options.interval_margin},
-            {"start_overlap", options.start_overlap}};
+            {"start_overlap", options.start_overlap},
+            {"goal_overlap", options.goal_overlap}};
   if (options.max_iterations) json["max_iterations"] = *options.max_iterations;
   if (options.horizon) json["horizon"] = *options.horizon;
   return json;

@@ -109,6 +109,7 @@ inline Json first_request(support::Dice& dice) {
   while (true) {
     support::FleetRequest request = dice.chance(0.4) ? crowd(dice) : support::random_request(dice);
     if (dice.chance(0.5)) support::add_loads(dice, request);
+    if (dice.chance(0.3)) support::push_goals_into_walls(dice, request);
     const auto plain = support::problem_of(request);
     if (!plain) continue;
     if (dice.chance(0.4)) request.zones = zones_for(dice, *plain);

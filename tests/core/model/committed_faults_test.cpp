@@ -128,6 +128,31 @@ TEST(CommittedFaults, AStartThatMayOverlapAWallLeavesIt) {
   EXPECT_EQ(faults_of({entering}, conditions).size(), 1u);
 }
 
+TEST(CommittedFaults, ACommitmentMayEndInAWallAsGoalsMay) {
+  ProblemConditions conditions;
+  conditions.wall_overlap_at_goal = 0.1;
+  const Robot entering = robot_at(2.5, 2.5).to(5.65, 2.5).drives(5.65, 2.5);  // 0.05 m in the wall
+  EXPECT_TRUE(faults_of({entering}, conditions).empty());
+  Robot leaves_again = robot_at(2.5, 2.5).to(0.5, 2.5).drives(5.65, 2.5);
+  EXPECT_TRUE(faults_of({leaves_again}, conditions).empty());
+  EXPECT_EQ(faults_of({leaves_again}).size(), 1u);
+  conditions.wall_overlap_at_goal = 0.04;
+  EXPECT_EQ(faults_of({leaves_again}, conditions).size(), 1u);
+}
+
+TEST(CommittedFaults, ALastGoalMayOverlapAWall) {
+  ProblemConditions conditions;
+  conditions.wall_overlap_at_goal = 0.1;
+  EXPECT_TRUE(faults_of({robot_at(2.5, 2.5).to(5.65, 2.5)}, conditions).empty());
+  EXPECT_EQ(faults_of({robot_at(2.5, 2.5).to(5.75, 2.5)}, conditions).size(), 1u);
+  Robot passes = robot_at(2.5, 2.5).to(0.5, 2.5);
+  passes.via = {Goal{{5.65, 2.5}, {}}};
+  EXPECT_EQ(faults_of({passes}, conditions).size(), 1u) << "it does not stay there";
+  Robot yields = robot_at(2.5, 2.5).to(5.65, 2.5);
+  yields.let_yield();
+  EXPECT_EQ(faults_of({yields}, conditions).size(), 1u);
+}
+
 TEST(CommittedFaults, AGoalOfASequenceInAWallHasItsNumber) {
   Robot robot = robot_at(0.5, 0.5).to(9.5, 4.5);
   robot.via = {Goal{{2.5, 2.5}, {}}, Goal{{6.5, 2.5}, {}}};

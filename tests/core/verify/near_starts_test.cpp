@@ -85,6 +85,99 @@ TEST(StartOverlap, WithAWallIsLeft) {
   EXPECT_EQ(returns.violations(rules_of(0, 0.5)).size(), 1U);
 }
 
+/// A robot of radius 0.5 m that drives to a wall and stays there, its centre so far from it, metres.
+Scene entering(double distance) {
+  Scene scene;
+  scene.add(robot_at(4, 10, kPi), [&](PlanBuilder& plan) { plan.translate_to(distance, 10); });
+  return scene;
+}
+
+CheckRules rules_at_goals(double inflation, double goal_overlap) {
+  CheckRules rules;
+  rules.inflation = inflation;
+  rules.goal_overlap = goal_overlap;
+  return rules;
+}
+
+TEST(GoalOverlap, IsAllowedUpToTheGivenDepth) {
+  EXPECT_THAT(entering(0.4).violations(rules_at_goals(0, 0.1)), IsEmpty());
+  EXPECT_THAT(kinds_of(entering(0.4).violations(rules_at_goals(0, 0.09))),
+              ElementsAre(Kind::obstacle_collision));
+  EXPECT_THAT(kinds_of(entering(0.4).violations(rules_of(0, 0.2))), ElementsAre(Kind::obstacle_collision));
+  EXPECT_THAT(entering(0.4).violations(rules_at_goals(0.1, 0.2)), IsEmpty());
+  EXPECT_EQ(entering(0.4).violations(rules_at_goals(0.1, 0.19)).size(), 1U);
+}
+
+TEST(GoalOverlap, IsThatOfTheLastGoalOnly) {
+  Scene elsewhere = entering(0.4);
+  elsewhere.robots()[0].goal->position = Position(3, 10);
+  EXPECT_THAT(kinds_of(elsewhere.violations(rules_at_goals(0, 0.1))),
+              ElementsAre(Kind::obstacle_collision, Kind::wrong_goal));
+  Scene passes;
+  passes.add(robot_at(4, 10, kPi),
+             [](PlanBuilder& plan) { plan.translate_to(0.4, 10).rotate_to(0.0).translate_to(6, 10); });
+  EXPECT_EQ(passes.violations(rules_at_goals(0, 0.1)).size(), 1U);
+  Scene yields = entering(0.4);
+  yields.robots()[0].let_yield();
+  EXPECT_EQ(yields.violations(rules_at_goals(0, 0.1)).size(), 1U);
+}
+
+TEST(GoalOverlap, IsNowhereDeeperOnTheWayIn) {
+  Scene scene;
+  scene.add(robot_at(4, 10, kPi),
+            [](PlanBuilder& plan) { plan.translate_to(0.35, 10).rotate_to(0.0).translate_to(0.4, 10); });
+  EXPECT_EQ(scene.violations(rules_at_goals(0, 0.5)).size(), 1U);
+  Scene twice;
+  twice.add(robot_at(4, 10, kPi), [](PlanBuilder& plan) {
+    plan.translate_to(0.45, 10).rotate_to(0.0).translate_to(2, 10).rotate_to(kPi).translate_to(0.4, 10);
+  });
+  EXPECT_EQ(twice.violations(rules_at_goals(0, 0.5)).size(), 1U);
+}
+
+TEST(GoalOverlap, IsLeftAgainFromTheStart) {
+  Scene scene;
+  scene.add(robot_at(0.4, 10),
+            [](PlanBuilder& plan) { plan.translate_to(2, 10).rotate_to(kPi).translate_to(0.42, 10); });
+  EXPECT_THAT(scene.violations(rules_at_goals(0, 0.1)), IsEmpty());
+  EXPECT_EQ(scene.violations(rules_at_goals(0, 0.09)).size(), 1U);
+}
+
+TEST(GoalOverlap, OfACommitmentIsLeft) {
+  Scene scene;
+  scene.add(robot_at(4, 10, kPi),
+            [](PlanBuilder& plan) { plan.translate_to(0.4, 10).rotate_to(0.0).translate_to(6, 10); });
+  scene.robots()[0].committed = {scene.action(0)};
+  EXPECT_THAT(scene.violations(rules_at_goals(0, 0.1)), IsEmpty());
+  EXPECT_EQ(scene.violations(rules_at_goals(0, 0.09)).size(), 1U);
+  scene.plans().clear();  // it stays there
+  EXPECT_THAT(scene.violations(rules_at_goals(0, 0.1)), IsEmpty());
+  Scene through;
+  through.add(robot_at(4, 10, kPi), [](PlanBuilder& plan) {
+    plan.translate_to(0.4, 10).rotate_to(0.0).translate_to(6, 10).rotate_to(kPi).translate_to(3, 10);
+  });
+  through.robots()[0].committed = through.plans()[0].actions;
+  EXPECT_THAT(through.violations(rules_at_goals(0, 0.1)), IsEmpty());
+  EXPECT_EQ(through.violations(rules_at_goals(0, 0.09)).size(), 1U);
+}
+
+TEST(StartOverlap, IsLeftAtTheEndOfAStraightMove) {
+  // Past a block: near its corner, clear, and nearer again, in a straight line of two translations.
+  Scene scene(support::ascii_map({"..........",  //
+                                  "....#.#...",  //
+                                  "..........",  //
+                                  ".........."}));
+  scene.add(robot_at(4.0, 1.55),
+            [](PlanBuilder& plan) { plan.translate_to(5.5, 1.55).translate_to(8.5, 1.55); });
+  EXPECT_THAT(scene.violations(rules_of(0, 0.06)), IsEmpty());
+  Scene stops(support::ascii_map({"..........",  //
+                                  "....#.#...",  //
+                                  "..........",  //
+                                  ".........."}));
+  stops.add(robot_at(4.0, 1.55),
+            [](PlanBuilder& plan) { plan.translate_to(5.5, 1.55).wait(1).translate_to(8.5, 1.55); });
+  EXPECT_EQ(stops.violations(rules_of(0, 0.06)).size(), 1U);
+}
+
 TEST(Inflation, KeepsRobotsAndWallsApart) {
   Scene scene;
   scene.add(robot_at(2, 10), [](PlanBuilder& plan) { plan.translate_to(16, 10); });

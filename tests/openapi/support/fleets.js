@@ -221,6 +221,7 @@ function usualOptions(document, { resolution = 1 }) {
     wait_before_move: seldom(2),
     interval_margin: seldom(1),
     start_overlap: distance,
+    goal_overlap: distance,
     execution_margin: distance,
     dependency_slack: within(0.001, 0.5),
     horizon: mostly(fc.constant(null), within(1, 60)),

@@ -189,7 +189,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"NegativeMargin", [](Json& r) { r["options"]["interval_margin"] = -1; },
                          "/options/interval_margin", "out_of_range", "seconds"},
                     Case{"NegativeOverlap", [](Json& r) { r["options"]["start_overlap"] = -1; },
-                         "/options/start_overlap", "out_of_range", "metres"}),
+                         "/options/start_overlap", "out_of_range", "metres"},
+                    Case{"NegativeOverlapAtGoals", [](Json& r) { r["options"]["goal_overlap"] = -1; },
+                         "/options/goal_overlap", "out_of_range", "metres"}),
     [](const auto& one) { return one.param.name; });
 
 TEST(MotionFaults, ReportMoreThanTheLimitsAllow) {

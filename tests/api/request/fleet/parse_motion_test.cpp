@@ -166,14 +166,17 @@ TEST(ParseMotion, ReadsTheOptionsOfFleetsInMotion) {
   EXPECT_EQ(standard.options.interval_margin, 0.0);
   EXPECT_FALSE(standard.options.horizon);
   EXPECT_EQ(standard.options.start_overlap, 0.0);
+  EXPECT_EQ(standard.options.goal_overlap, 0.0);
   Json request = swap_request();
   request["options"] = Json::parse(
-      R"({"replan": "where_needed", "interval_margin": 0.5, "start_overlap": 0.02, "horizon": 20})");
+      R"({"replan": "where_needed", "interval_margin": 0.5, "start_overlap": 0.02, "goal_overlap": 0.03,
+          "horizon": 20})");
   const PlanRequest read = parsed(request);
   EXPECT_EQ(read.options.replan, core::PlanOptions::Replan::where_needed);
   EXPECT_EQ(read.options.interval_margin, 0.5);
   EXPECT_EQ(read.options.horizon, 20.0);
   EXPECT_EQ(read.options.start_overlap, 0.02);
+  EXPECT_EQ(read.options.goal_overlap, 0.03);
 }
 
 TEST(ParseMotion, KeepsNoStartFreeByDefaultIfAnyRobotIsInMotion) {
