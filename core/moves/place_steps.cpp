@@ -1,5 +1,6 @@
 #include "core/moves/place_steps.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -16,6 +17,8 @@ namespace {
 constexpr std::array kPlaceSpacings{1.0, 0.5, 0.25, 0.0};
 /// The configurations of each search after which others go on. At the end they are 16 MB for six robots.
 constexpr std::array<std::size_t, 3> kMaxConfigurations{3'000, 30'000, 300'000};
+/// For more robots than a few, of all rounds.
+constexpr std::size_t kMaxConfigurationsOfMany = 30'000;
 /// The most robots that are moved one at a time at first: for more of them, there are too many
 /// configurations.
 constexpr std::size_t kFewOnPlaces = 6;
@@ -74,7 +77,9 @@ std::optional<std::vector<Configuration>> PlaceSteps::search(Level& level, std::
     auto plan = plan_by_pushing(level.steps, random_, stop);
     if (plan || stop.met()) return plan;
   }
-  const SingleMoveSearch::Outcome outcome = level.single.run(max_configurations, stop);
+  const bool are_few = robots_.size() <= kFewOnPlaces;
+  const SingleMoveSearch::Outcome outcome = level.single.run(
+      are_few ? max_configurations : std::min(max_configurations, kMaxConfigurationsOfMany), stop);
   level.is_done = outcome != SingleMoveSearch::Outcome::cut_off;
   if (outcome == SingleMoveSearch::Outcome::found) return level.single.plan();
   has_no_way_ = has_no_way_ || (level.is_done && kPlaceSpacings[number] == 0.0);

@@ -6,11 +6,11 @@
 namespace fleetplan::core {
 namespace {
 
-/// 40 MB, 16 MB and 24 MB at most.
+/// Where pushing helps, it needs few configurations; others are left to other searches.
 constexpr ConfigurationLimits kPlaceLimits{
-    .max_nodes = 200'000, .max_places = 4'000'000, .max_constraints = 2'000'000};
+    .max_nodes = 5'000, .max_places = 1'000'000, .max_constraints = 20'000};
 /// How often the search is tried, each time with other random numbers.
-constexpr int kMaxPlaceTries = 4;
+constexpr int kMaxPlaceTries = 2;
 
 /// A fleet on its places, see ConfigurationSearch. Makes configurations with Priority Inheritance with
 /// Backtracking.
