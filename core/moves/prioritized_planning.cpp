@@ -21,6 +21,8 @@ namespace {
 constexpr std::size_t kFewRobots = 4;
 /// Attempts in random orders, each with repairs, if no deadline ends them.
 constexpr int kMaxOrdersWithoutDeadline = 10;
+/// The most robots that are planned again, one after the other, after a plan in steps.
+constexpr std::size_t kMaxReplanned = 16;
 /// With a horizon, the most robots that are planned to their goals all at once.
 constexpr std::size_t kMaxWholeWays = 64;
 /// The failed attempts after which robots of different sizes are planned again in that order, if they were
@@ -94,6 +96,7 @@ class PrioritizedPlanning {
         result_.cut_off || ordering.cut_off || best_.has_value() || ordering.steps == StepsOutcome::cut_off;
     result_.is_limited = ordering.steps == StepsOutcome::limited;
     if (solved(ordering)) {
+      if (ordering.steps == StepsOutcome::followed) replan_after_steps(order_);
       if (may_go_on_for_ever()) plan_whole_ways();
       return std::move(result_);
     }
@@ -214,6 +217,13 @@ class PrioritizedPlanning {
   /// new goal, so that everybody arrives.
   void plan_whole_ways() { steps_succeed({}, stop_); }
 
+  /// Steps cost more than it takes: they let one robot move at a time, and only from vertex to vertex.
+  void replan_after_steps(const std::vector<std::size_t>& robots) {
+    if (state_.instance().options().horizon || robots.size() > kMaxReplanned) return;
+    replan_for_less(state_, robots, stop_);
+    result_.cut_off = result_.cut_off || stop_.met();
+  }
+
   bool has_few_robots() const { return order_.size() <= kFewRobots; }
   /// Whether other orders are tried from the beginning. Robots that yield make way for others in no order:
   /// they are asked to in repairs.
@@ -246,7 +256,7 @@ class PrioritizedPlanning {
       least = std::min(least, cost);
     };
     if (!tried_steps && steps_succeed(hopeless, stop_)) {
-      if (has_few_robots()) replan_for_less(state_, robots, stop_);
+      replan_after_steps(robots);
       keep_if_better();
     }
     if (has_few_robots() && make_room(state_, robots, stop_, progress_)) {

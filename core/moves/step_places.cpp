@@ -192,6 +192,7 @@ class PlaceSearch {
     place.position = vertices(stage).position(vertex);
     place.stage = stage;
     place.radius = views_[stage].body.pair_radius;
+    if (ends_at(place, vertex)) place.radius = std::max(place.radius, views_[last_stage_].body.pair_radius);
     place.to_go = kNoWay;
     found_.places.push_back(place);
     vertex_of_.push_back(vertex);
@@ -202,6 +203,7 @@ class PlaceSearch {
     const auto k = static_cast<std::size_t>(id);
     const StepPlaces::Place place = found_.places[k];
     found_.places[k].first = static_cast<std::uint32_t>(found_.steps.size());
+    if (ends_at(place, vertex_of_[k])) return;
     const Vertices& here = vertices(place.stage);
     const int from = vertex_of_[k];
     const auto visit = [&](int to) {
@@ -219,6 +221,13 @@ class PlaceSearch {
     } else {
       for (const int to : sparse_[views_.number(place.stage)]->steps_from(from)) visit(to);
     }
+  }
+
+  /// Whether a robot that rests there has another load from then on, and so stays: it is served for good.
+  bool ends_at(const StepPlaces::Place& place, int vertex) const {
+    if (itinerary_.yields() || place.stage + 1 != last_stage_) return false;
+    return views_.number(place.stage) != views_.number(last_stage_) &&
+           vertices(place.stage).goals()[place.stage].vertex == vertex;
   }
 
   /// The number of a vertex among those of another stage, where a goal is served.

@@ -6,6 +6,7 @@
 #include "core/geometry/disk_motion.h"
 #include "core/geometry/elementary_functions.h"
 #include "core/geometry/tolerance.h"
+#include "core/model/served.h"
 #include "core/sipp/moves.h"
 
 namespace fleetplan::core {
@@ -42,7 +43,7 @@ class StepTimes {
       if (progress.trajectory.moves.empty()) progress.trajectory.start = steps_.robot(k).at(0).position;
       progress.heading = itinerary.pose.theta;
       progress.t_arrive = itinerary.t_begin;
-      progress.t_ready = std::max(itinerary.t_begin, earliest_);
+      progress.t_ready = itinerary.t_begin;
       const auto safe = safe_intervals(k, 0, itinerary.t_begin);
       const auto now = std::find_if(safe.begin(), safe.end(), [&](const SafeInterval& interval) {
         return interval.contains(itinerary.t_begin);
@@ -91,10 +92,13 @@ class StepTimes {
     for (; stage < end; ++stage) {
       const Goal& goal = itinerary.goals[stage];
       const double heading = goal.theta.value_or(progress.heading);
-      const double t_rest = progress.t_ready + rotation_time(k, stage, goal.position, heading);
-      progress.t_ready = goal.service_end(t_rest);
+      const bool has_rested = stage == 0 && progress.trajectory.moves.size() == committed_count(k) &&
+                              itinerary.is_committed && is_in_pose(itinerary.pose, goal);
+      const double t_rest =
+          has_rested ? itinerary.arrived : progress.t_ready + rotation_time(k, stage, goal.position, heading);
+      progress.t_ready = std::max(progress.t_ready, goal.service_end(t_rest));
       progress.heading = heading;
-      progress.trajectory.visits.push_back({itinerary.first_goal + stage, t_rest, progress.t_ready});
+      progress.trajectory.visits.push_back({itinerary.first_goal + stage, t_rest, goal.service_end(t_rest)});
     }
     return progress.t_ready <= progress.safe.end;
   }
@@ -126,7 +130,8 @@ class StepTimes {
     const bool may_go_on = progress.t_ready == progress.t_arrive && same_line && !times.have_parts() &&
                            progress.trajectory.moves.size() > committed_count(k) &&
                            progress.trajectory.moves.back().reverse == reverse;
-    const double turned = progress.t_ready + times.rotation_time(here.position, progress.heading, heading) +
+    const double turned = std::max(progress.t_ready, earliest_) +
+                          times.rotation_time(here.position, progress.heading, heading) +
                           view.body.wait_before_move;
     const double duration = times.translation_time(way.length(), [&] { return way; });
     const double after_others = free_from(k, times, way, duration, there.radius);
