@@ -21,6 +21,9 @@ constexpr double kRoundedTime = 1e-9;
 /// An action that has less left is done (metres or radians).
 constexpr double kLeft = kLeastAction;
 
+/// Actions follow each other if no more time is between them (seconds): POST /v1/plan accepts twice as much.
+constexpr double kGap = 0.5 * kContactTolerance;
+
 /// Whether the robot goes on at speed after this action.
 bool ends_at_speed(const Action& action) { return action.profile && action.profile->end > 0.0; }
 
@@ -242,6 +245,9 @@ ActionSequence resumed_after(const ActionSequence& stopped, const ActionSequence
       all.insert(all.end(), chain.begin(), chain.end());
     }
     next = end;
+  } else if (last.profile && next < actions.size() && planned.t_end - last.t_end > kGap) {
+    // It is there already: what follows begins when it was planned to.
+    all.push_back({Action::Type::wait, last.t_end, planned.t_end, last.to, last.to});
   } else if (!last.profile && last.t_end < planned.t_end && left_of(planned, last.t_end) >= kLeastAction) {
     Action later = planned;
     later.t_start = last.t_end;

@@ -139,6 +139,26 @@ TEST(Timeline, ARobotThatNeedsTimeToStopBrakesAsLateAsItCan) {
   }
 }
 
+/// A robot that begins to brake a little earlier may lose less way than a translation has, but takes less
+/// time.
+TEST(Timeline, OneThatStandsHardlyEarlierWaitsForWhatFollows) {
+  constexpr double kWay = 2e-9;  // metres, in which it needs 9e-5 s
+  const Inertia inertia{1.0, 1.0};
+  Action crawl{Type::translate, 0.0, 0.0, at_x(1.0), at_x(1.0 + kWay)};
+  crawl.profile = fastest_profile(kWay, 1.0, inertia);
+  crawl.t_end = duration(*crawl.profile, kWay);
+  const std::vector<Action> all{crawl, {Type::wait, crawl.t_end, 5.0, crawl.to, crawl.to}};
+  const double earlier = 0.8 * crawl.t_end;
+  const std::vector<Action> split = split_at(all, earlier);
+  ASSERT_EQ(split.size(), 3U);
+  EXPECT_NEAR(split[0].t_end, earlier, 1e-12);
+  EXPECT_EQ(split[1].type, Type::wait);
+  EXPECT_EQ(split[1].t_start, split[0].t_end);
+  EXPECT_EQ(split[1].t_end, crawl.t_end);
+  EXPECT_EQ(split[2].t_start, crawl.t_end);
+  EXPECT_EQ(split[2].t_end, 5.0);
+}
+
 TEST(Timeline, ActionsThatOverlapInTimeFollowEachOther) {
   std::vector<Action> actions = corner();
   actions[1].t_start = 1.0;  // while the robot still drives
