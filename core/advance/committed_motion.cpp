@@ -76,6 +76,8 @@ class Clearing {
     for (std::size_t robot = 0; robot < robots_.size() && !obstacles_.empty(); ++robot) {
       stop_before_obstacles(robot);
     }
+    // Bounded: a robot waits again when its commitment ends at least kSameEnd earlier, or when one is
+    // committed to more of its course, each time to more actions than before.
     while (!waiting_.empty()) {
       const std::size_t robot = waiting_.back();
       waiting_.pop_back();
@@ -402,33 +404,47 @@ class Clearing {
     return pieces.back().grows ? pieces : pieces.first(pieces.size() - 1);
   }
 
-  /// Whether a commitment that ends then is shorter.
+  /// What is left of a commitment.
+  struct Ended {
+    ActionSequence committed;
+    bool stands;  // or touches another robot before it can stop: what is known of its motion ends there
+
+    double until() const { return committed.empty() ? 0.0 : committed.back().t_end; }
+  };
+
+  /// Ends a commitment at a time, at most kSameEnd later; as much later as an action takes of which nearly
+  /// nothing would be left, since that is not cut.
+  Ended ended(const ActionSequence& committed, double t) const {
+    work_.met_after(kWorkOfAnAction * committed.size());
+    if (t < kNothing) t = 0.0;
+    Ended stopped{stopped_by(committed, t), true};
+    if (stopped.until() <= t + kSameEnd) return stopped;
+    Ended cut{executed_until(committed, t), false};
+    if (stopped.until() <= cut.until()) return stopped;
+    if (!cut.committed.empty()) cut.committed.back().profile.reset();
+    return cut;
+  }
+
+  /// Whether a commitment that is to end then is shorter. Not by the time alone: the action under way may
+  /// have less left than is cut, and then the commitment would stay as it is, however often it is ended.
   bool shortens(std::size_t index, double t) const {
-    return (t < kNothing ? 0.0 : t) < robots_[index].committed_until() - kSameEnd;
+    const double less = robots_[index].committed_until() - kSameEnd;
+    return (t < kNothing ? 0.0 : t) < less && ended(robots_[index].committed, t).until() < less;
   }
 
   void cut(std::size_t index, double t) {
     Robot& robot = robots_[index];
     work_.met_after(kWorkOfAPiece * pieces_[index].size());
     if (!shortens(index, t)) return;
-    if (t < kNothing) t = 0.0;
-    ActionSequence stopped = stopped_by(robot.committed, t);
-    const double end = stopped.empty() ? 0.0 : stopped.back().t_end;
-    if (end > t + kSameEnd) {
-      end_abruptly(robot, t);
-    } else {
-      robot.committed = std::move(stopped);
-      if (robot.previous) robot.previous = split_at(*robot.previous, t);
+    Ended end = ended(robot.committed, t);
+    robot.committed = std::move(end.committed);
+    if (!end.stands) {
+      robot.previous.reset();
+    } else if (robot.previous) {
+      robot.previous = split_at(*robot.previous, t < kNothing ? 0.0 : t);
     }
     pieces_[index] = committed_pieces(robot);
     compare_again(index);
-  }
-
-  /// A robot that cannot stop before it touches another one: what is known of its motion ends there.
-  static void end_abruptly(Robot& robot, double t) {
-    robot.committed = executed_until(robot.committed, t);
-    if (!robot.committed.empty()) robot.committed.back().profile.reset();
-    robot.previous.reset();
   }
 
   std::vector<Robot>& robots_;
