@@ -103,7 +103,7 @@ class ConfigurationSearch {
     return {reinterpret_cast<const char*>(configuration.data()), configuration.size() * sizeof(int)};
   }
 
-  void add(Configuration at, const Node* before) {
+  void add(Configuration&& at, const Node* before) {
     Node& node = nodes_.emplace_back();
     node.at = std::move(at);
     node.before = before;

@@ -63,7 +63,8 @@ class Choice {
     };
     reach(vertex, 0.0F, vertex);
     while (!open.empty() && !stop_.met_at_step()) {
-      const auto [distance, here] = open.top();
+      const float distance = open.top().first;
+      const int here = open.top().second;
       open.pop();
       if (distance > at(here).distance || at(here).chosen != vertex) continue;
       const Position position = vertices_.position(here);

@@ -74,7 +74,7 @@ class PlacesAtWalls {
     if (room[0] + room[2] >= narrow_ && room[1] + room[3] >= narrow_) return;
     for (std::size_t k = 0; k < kDirections.size(); ++k) {
       if (room[k] < spacing && room[k] > kLeastRoom * spacing)
-        found_.push_back(position + room[k] * kDirections[k]);
+        found_.emplace_back(position + room[k] * kDirections[k]);
     }
   }
 

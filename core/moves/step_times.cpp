@@ -133,7 +133,7 @@ class StepTimes {
     const double turned = std::max(progress.t_ready, earliest_) +
                           times.rotation_time(here.position, progress.heading, heading) +
                           view.body.wait_before_move;
-    const double duration = times.translation_time(way.length(), [&] { return way; });
+    const double duration = times.translation_time(way.length(), [&]() -> const Segment& { return way; });
     const double after_others = free_from(k, times, way, duration, there.radius);
     const double first =
         may_go_on && after_others <= progress.t_arrive ? progress.t_arrive : std::max(turned, after_others);
