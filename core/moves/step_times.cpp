@@ -18,6 +18,7 @@ struct Progress {
   double heading = 0.0;            // radians
   double t_arrive = 0.0;           // seconds; then it has rested where it is
   double t_ready = 0.0;            // seconds; then it has been served there, and may leave
+  bool is_served = false;          // where it is: it stops there, even for no time
   SafeInterval safe;               // in which it rests
   std::vector<SizedSegment> past;  // its rests and moves so far, from the begin of its plan on
 };
@@ -26,8 +27,7 @@ class StepTimes {
  public:
   StepTimes(const FleetReservations& reservations, const std::vector<std::size_t>& robots,
             const JointSteps& steps, double earliest)
-      : reservations_(reservations),
-        instance_(reservations.instance()),
+      : instance_(reservations.instance()),
         table_(reservations.table()),
         robots_(robots),
         steps_(steps),
@@ -89,6 +89,7 @@ class StepTimes {
   bool serve(std::size_t k, std::uint32_t stage, std::uint32_t end) {
     const Itinerary& itinerary = instance_.itinerary(robots_[k]);
     Progress& progress = progress_[k];
+    progress.is_served = stage < end;
     for (; stage < end; ++stage) {
       const Goal& goal = itinerary.goals[stage];
       const double heading = goal.theta.value_or(progress.heading);
@@ -127,7 +128,7 @@ class StepTimes {
     Progress& progress = progress_[k];
     const auto [heading, reverse] = heading_of_move(k, here.stage, way);
     const bool same_line = angle_between(progress.heading, heading) <= kSameHeading;
-    const bool may_go_on = progress.t_ready == progress.t_arrive && same_line && !times.have_parts() &&
+    const bool may_go_on = !progress.is_served && same_line && !times.have_parts() &&
                            progress.trajectory.moves.size() > committed_count(k) &&
                            progress.trajectory.moves.back().reverse == reverse;
     const double turned = std::max(progress.t_ready, earliest_) +
@@ -244,7 +245,6 @@ class StepTimes {
     return progress.trajectory.cost < instance_.views(robots_[k]).longest_plan();
   }
 
-  const FleetReservations& reservations_;
   const Instance& instance_;
   const ReservationTable& table_;
   const std::vector<std::size_t>& robots_;

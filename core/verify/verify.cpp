@@ -375,7 +375,7 @@ class FleetCheck {
         distances_to_keep(distance_from, radii, legs, handover, ends_in_goal, tolerance.metres, rules_);
     violations_.add(check_obstacles(field, index, kept, legs, tolerance.metres, stop_));
     if (zones.empty()) return;
-    violations_.add(zones.check_blocked(kept, legs, handover, tolerance.metres, stop_));
+    violations_.add(zones.check_blocked(kept, radii, legs, handover, tolerance.metres, stop_));
     violations_.add(
         zones.check_driving(plan != nullptr ? plan->actions : robot.committed, loads, tolerance, stop_));
   }

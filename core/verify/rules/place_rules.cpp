@@ -301,9 +301,9 @@ std::vector<bool> ZonesOfRobot::may_be_inside(const std::vector<double>& radii, 
   return may_be;
 }
 
-ViolationList ZonesOfRobot::check_blocked(const std::vector<double>& radii, const std::vector<Leg>& legs,
-                                          const Handover& handover, double tolerance,
-                                          const StopCondition& stop) const {
+ViolationList ZonesOfRobot::check_blocked(const std::vector<double>& kept, const std::vector<double>& radii,
+                                          const std::vector<Leg>& legs, const Handover& handover,
+                                          double tolerance, const StopCondition& stop) const {
   ViolationList violations;
   const std::vector<bool> may_be_inside = this->may_be_inside(radii, legs, handover, tolerance, stop);
   for (const auto& [index, zone, box] : zones_) {
@@ -314,16 +314,15 @@ ViolationList ZonesOfRobot::check_blocked(const std::vector<double>& radii, cons
       const Leg& leg = legs[k];
       const bool is_exempt = zone->may_leave && may_be_inside[k];
       const auto nearest =
-          is_exempt ? std::nullopt : nearest_to_zone(leg.from, leg.to, *zone, box, radii[k] - tolerance);
+          is_exempt ? std::nullopt : nearest_to_zone(leg.from, leg.to, *zone, box, kept[k] - tolerance);
       if (!nearest) {
         if (latest) violations.add(*std::exchange(latest, std::nullopt));
         continue;
       }
       if (latest && nearest->distance >= latest->distance - kSamePosition) continue;
       const double t = moment(leg, nearest->fraction);
-      latest =
-          Violation{Violation::Kind::zone, {robot_}, t,
-                    nearest->distance,     radii[k], blocked_text(*zone, nearest->distance, radii[k], t)};
+      latest = Violation{Violation::Kind::zone, {robot_}, t,
+                         nearest->distance,     kept[k],  blocked_text(*zone, nearest->distance, kept[k], t)};
       latest->zone = index;
     }
     if (latest) violations.add(std::move(*latest));

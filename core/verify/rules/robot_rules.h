@@ -103,12 +103,13 @@ class ZonesOfRobot {
                                                 const std::function<bool(std::size_t)>& visits) const;
 
   /// Reports where the disk overlaps a blocked zone by more than the tolerance (metres): for each zone one
-  /// violation for consecutive legs through which the overlap continues. `radii` are those of the disk in
-  /// each leg. In zones that it may leave, a robot may be from its start, or from the end of its commitment,
-  /// until it is clear of all of them at the end of a leg, and while it executes its commitment. Ends early
-  /// when `stop` is met.
-  ViolationList check_blocked(const std::vector<double>& radii, const std::vector<Leg>& legs,
-                              const Handover& handover, double tolerance, const StopCondition& stop) const;
+  /// violation for consecutive legs through which the overlap continues. `kept` are the distances that
+  /// the robot keeps in each leg, `radii` those of its disk. In zones that it may leave, a robot may be from
+  /// its start, or from the end of its commitment, until it is clear of all of them at the end of a leg, and
+  /// while it executes its commitment. Ends early when `stop` is met.
+  ViolationList check_blocked(const std::vector<double>& kept, const std::vector<double>& radii,
+                              const std::vector<Leg>& legs, const Handover& handover, double tolerance,
+                              const StopCondition& stop) const;
 
   /// Reports the actions that are faster than a speed zone allows, and those against a one-way zone. Ends
   /// early when `stop` is met.
