@@ -91,6 +91,22 @@ TEST(PlaceSteps, GoRoundRobotsThatStay) {
   follow_all(p, steps, std::move(*trajectories));
 }
 
+TEST(PlaceSteps, StopAtGoalsOnAStraightWay) {
+  Robot through = robot_at(0.5, 0.5).to(3.5, 0.5);
+  through.via.push_back({{1.5, 0.5}, std::nullopt});
+  through.via.push_back({{2.5, 0.5}, std::nullopt});
+  through.via.back().radius_after = 0.3;
+  Planning p(support::ascii_map({"...."}), {through});
+  PlaceSteps steps(p.reservations, {0}, p.random);
+  auto trajectories = steps.run(p.never);
+  ASSERT_TRUE(trajectories);
+  const Trajectory& trajectory = trajectories->front();
+  EXPECT_EQ(trajectory.moves.size(), 3u);
+  ASSERT_EQ(trajectory.visits.size(), 2u);
+  EXPECT_NEAR(trajectory.visits[0].t_arrive, 1.0, 1e-9);
+  EXPECT_NEAR(trajectory.visits[1].t_arrive, 2.0, 1e-9);
+}
+
 /// A fleet so dense that robots have to push each other away.
 TEST(PlaceSteps, PushManyRobots) {
   std::vector<Robot> robots;
