@@ -84,6 +84,7 @@ class FleetOnPlaces {
     add(from);
     std::sort(keys.begin(), keys.end());
     std::vector<int> choices;
+    choices.reserve(keys.size());
     for (const auto& key : keys) choices.push_back(key.second);
     return choices;
   }

@@ -109,6 +109,7 @@ class Choice {
       });
     }
     std::vector<Border> sorted;
+    sorted.reserve(all.size());
     for (const auto& [pair, border] : all) sorted.push_back(border);
     std::stable_sort(sorted.begin(), sorted.end(),
                      [](const Border& a, const Border& b) { return a.length < b.length; });

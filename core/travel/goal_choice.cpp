@@ -324,6 +324,7 @@ std::vector<OpenPlace> crowded_goals(const std::vector<Robot>& robots, const Ope
     return !open[k].empty() && open[k].back().may_widen() && stays_at(robots[k], open[k].back().goal);
   };
   std::vector<double> radii;
+  radii.reserve(robots.size());
   for (const Robot& robot : robots) radii.push_back(last_radius(robot));
   std::vector<OpenPlace> crowded;
   const auto place_of = [](const Robot& robot) {
