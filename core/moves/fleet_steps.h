@@ -29,6 +29,9 @@ enum class StepsOutcome : std::uint8_t {
 /// over places. What it has searched it keeps for the next time that the same robots are asked for.
 class FleetSteps {
  public:
+  /// With a horizon, the most robots that are planned to their goals all at once.
+  static constexpr std::size_t kMaxWholeWays = 64;
+
   /// All arguments outlive this object.
   FleetSteps(FleetReservations& reservations, Random& random, ProgressReport& progress)
       : reservations_(reservations), random_(random), progress_(progress) {}

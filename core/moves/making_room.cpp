@@ -161,17 +161,8 @@ class MakingRoom {
   std::optional<double> room(std::size_t robot, const Position& from, const Position& aside,
                              double max) const {
     const View& view = instance_.views(robot)[0];
-    const auto is_free = [&](double distance) {
-      return view.free_space->may_sweep(from, from + distance * aside, view.body.wall_radius);
-    };
-    if (!is_free(0.0)) return std::nullopt;
-    if (is_free(max)) return max;
-    double least = 0.0;
-    for (int k = 0; k < kBisections; ++k) {
-      const double middle = 0.5 * (least + max);
-      (is_free(middle) ? least : max) = middle;
-    }
-    return least;
+    if (!view.free_space->may_sweep(from, from, view.body.wall_radius)) return std::nullopt;
+    return room_towards(view, from, aside, max);
   }
 
   /// Plans the two robots through their places, and the others after them.
@@ -237,6 +228,19 @@ class MakingRoom {
 };
 
 }  // namespace
+
+double room_towards(const View& view, const Position& from, const Position& direction, double max) {
+  const auto is_free = [&](double distance) {
+    return view.free_space->may_sweep(from, from + distance * direction, view.body.wall_radius);
+  };
+  if (is_free(max)) return max;
+  double least = 0.0;
+  for (int k = 0; k < kBisections; ++k) {
+    const double middle = 0.5 * (least + max);
+    (is_free(middle) ? least : max) = middle;
+  }
+  return least;
+}
 
 bool make_room(PlanState& state, const std::vector<std::size_t>& robots, const StopCondition& stop,
                ProgressReport& progress) {

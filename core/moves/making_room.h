@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/compile/views.h"
 #include "core/fleet/plan_state.h"
 #include "core/fleet/progress_report.h"
 #include "core/runtime/stop_condition.h"
@@ -21,6 +22,10 @@ namespace fleetplan::core {
 /// reservation has changed. The effort of each search is limited.
 bool make_room(PlanState& state, const std::vector<std::size_t>& robots, const StopCondition& stop,
                ProgressReport& progress);
+
+/// How far a robot that fits at a place may go straight from there, metres, up to `max`. `direction` has
+/// length 1.
+double room_towards(const View& view, const Position& from, const Position& direction, double max);
 
 /// Plans each of these robots, which follow trajectories, again as long as that costs less; a few times at
 /// most.

@@ -13,8 +13,6 @@
 
 namespace fleetplan::core {
 
-class JointSteps;
-
 /// Plans robots all at once, in steps in each of which robots move one after the other while all others rest,
 /// whatever their lattices, radii, loads, goals and zones are, among the other robots' reservations: first
 /// over few places (SparseVertices), then over more of them, in the end over all vertices. Then gives the

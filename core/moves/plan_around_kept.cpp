@@ -13,9 +13,6 @@
 namespace fleetplan::core {
 namespace {
 
-/// The most robots that are all planned together for one that is passed over.
-constexpr std::size_t kMaxPassing = 64;
-
 bool has_time_for_two_parts(const PlanningTime& time) {
   return time.first_part.deadline() - StopCondition::Clock::now() >= budget::kLeastFirstPart;
 }
@@ -181,7 +178,7 @@ class PlanningAroundKept {
   /// gains nothing now: nobody who keeps a plan makes way for it.
   void pass_those_in_the_way() {
     const auto& horizon = state_.instance().options().horizon;
-    if (!horizon || movers_.size() > kMaxPassing || time_.all.met()) return;
+    if (!horizon || movers_.size() > FleetSteps::kMaxWholeWays || time_.all.met()) return;
     const bool is_any_passed_over = std::any_of(movers_.begin(), movers_.end(), [&](std::size_t robot) {
       return reservations_.trajectory(robot)->gains_nothing &&
              state_.instance().itinerary(robot).goal_age >= *horizon;

@@ -23,8 +23,6 @@ constexpr std::size_t kFewRobots = 4;
 constexpr int kMaxOrdersWithoutDeadline = 10;
 /// The most robots that are planned again, one after the other, after a plan in steps.
 constexpr std::size_t kMaxReplanned = 16;
-/// With a horizon, the most robots that are planned to their goals all at once.
-constexpr std::size_t kMaxWholeWays = 64;
 /// The failed attempts after which robots of different sizes are planned again in that order, if they were
 /// planned in another one.
 constexpr std::int64_t kMaxFailures = 15;
@@ -197,7 +195,8 @@ class PrioritizedPlanning {
   /// leaves its goal and does not come back. Robots whose goals lie in each other's way would come and leave
   /// in turn.
   bool may_go_on_for_ever() const {
-    if (!state_.instance().options().horizon || order_.empty() || order_.size() > kMaxWholeWays) return false;
+    if (!state_.instance().options().horizon || order_.empty()) return false;
+    if (order_.size() > FleetSteps::kMaxWholeWays) return false;
     if (state_.instance().itinerary(order_.front()).goal_age > 0.0 && !state_.whole_way_of() &&
         stops_at_horizon(order_.front())) {
       return true;

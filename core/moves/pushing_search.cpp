@@ -105,8 +105,7 @@ class FleetOnPlaces {
     }
     is_asked_[robot] = false;
     to_[robot] = from;
-    const bool may_stay = agrees_with_decided(move_of(robot));
-    return may_stay;
+    return agrees_with_decided(move_of(robot));
   }
 
   /// Moves those away who are in the way of a move.

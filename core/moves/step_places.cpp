@@ -11,6 +11,7 @@
 
 #include "core/geometry/segment.h"
 #include "core/geometry/tolerance.h"
+#include "core/moves/making_room.h"
 #include "core/moves/sparse_vertices.h"
 #include "core/sipp/vertices.h"
 
@@ -26,13 +27,10 @@ constexpr std::size_t kWallsBetweenPolls = 8;
 constexpr std::size_t kMaxAtWalls = 400;
 /// Places at walls are farther than this from a vertex, in spacings of the lattice.
 constexpr double kLeastRoom = 0.1;
-/// Of the distance to a wall: to less than a millimetre.
-constexpr int kBisectionsToWall = 12;
 constexpr float kNoWay = std::numeric_limits<float>::infinity();
 
 /// A robot that stays.
 struct Resting {
-  std::size_t robot = 0;
   Position position{0.0, 0.0};
   double radius = 0.0;  // metres, to other robots
 };
@@ -70,27 +68,13 @@ class PlacesAtWalls {
                                                      Position(-1.0, 0.0), Position(0.0, -1.0)};
     const double spacing = vertices_.lattice().spacing();
     std::array<double, 4> room{};
-    for (std::size_t k = 0; k < kDirections.size(); ++k) room[k] = room_towards(position, kDirections[k]);
+    for (std::size_t k = 0; k < kDirections.size(); ++k)
+      room[k] = room_towards(view_, position, kDirections[k], narrow_);
     if (room[0] + room[2] >= narrow_ && room[1] + room[3] >= narrow_) return;
     for (std::size_t k = 0; k < kDirections.size(); ++k) {
       if (room[k] < spacing && room[k] > kLeastRoom * spacing)
         found_.emplace_back(position + room[k] * kDirections[k]);
     }
-  }
-
-  /// How far the robot may go in a direction, metres, up to narrow_.
-  double room_towards(const Position& position, const Position& direction) const {
-    const auto is_free = [&](double distance) {
-      return view_.free_space->may_sweep(position, position + distance * direction, view_.body.wall_radius);
-    };
-    if (is_free(narrow_)) return narrow_;
-    double least = 0.0;
-    double most = narrow_;
-    for (int k = 0; k < kBisectionsToWall; ++k) {
-      const double middle = 0.5 * (least + most);
-      (is_free(middle) ? least : most) = middle;
-    }
-    return least;
   }
 
   const Vertices& vertices_;
@@ -316,7 +300,7 @@ std::optional<std::vector<StepPlaces>> places_of_steps(const FleetReservations& 
   std::vector<Resting> resting;
   for (std::size_t i = 0; i < instance.size(); ++i) {
     if (moves[i] || !reservations.stays(i)) continue;
-    resting.push_back({i, instance.itinerary(i).pose.position, instance.views(i).largest_disk().pair_radius});
+    resting.push_back({instance.itinerary(i).pose.position, instance.views(i).largest_disk().pair_radius});
   }
   std::vector<Position> wanted;
   double widest = 0.0;

@@ -135,7 +135,7 @@ class StepTimes {
                           times.rotation_time(here.position, progress.heading, heading) +
                           view.body.wait_before_move;
     const double duration = times.translation_time(way.length(), [&]() -> const Segment& { return way; });
-    const double after_others = free_from(k, times, way, duration, there.radius);
+    const double after_others = free_from(k, times, way, there.radius);
     const double first =
         may_go_on && after_others <= progress.t_arrive ? progress.t_arrive : std::max(turned, after_others);
     for (const SafeInterval& safe : safe_intervals(k, to, first)) {
@@ -162,11 +162,10 @@ class StepTimes {
   }
 
   /// The time from which on a move meets none of the others as they have moved so far.
-  double free_from(std::size_t k, const MoveTimes& times, const Segment& way, double duration,
-                   double radius_there) const {
+  double free_from(std::size_t k, const MoveTimes& times, const Segment& way, double radius_there) const {
     double t = 0.0;
     const double radius = std::max(times.body().pair_radius, radius_there);
-    const std::vector<TimedSegment> parts = parts_of(times, way, duration);
+    const std::vector<TimedSegment> parts = parts_of(times.pieces(way));
     const double t_min = progress_[k].t_ready - margin_;
     // Bounded: few robots, and what they did since this one has come.
     for (std::size_t other = 0; other < robots_.size(); ++other) {
@@ -193,20 +192,6 @@ class StepTimes {
     return t;
   }
 
-  /// The parts of a move in which its acceleration is constant, from its departure on.
-  static std::vector<TimedSegment> parts_of(const MoveTimes& times, const Segment& way, double duration) {
-    std::vector<TimedSegment> parts;
-    // Bounded: the pieces of one move, and at most three phases of each.
-    for (const TimedMove& move : timed_moves(times, way, 0.0, duration, false)) {
-      if (!move.profile) {
-        parts.push_back(move);
-        continue;
-      }
-      for (const TimedSegment& phase : phases(move, *move.profile)) parts.push_back(phase);
-    }
-    return parts;
-  }
-
   void append(std::size_t k, const Segment& way, const SafeInterval& time, const MoveTimes& times,
               bool reverse, bool goes_on) {
     Progress& progress = progress_[k];
@@ -214,7 +199,7 @@ class StepTimes {
     if (time.begin > progress.t_arrive) {
       progress.past.push_back({{{way.from, way.from}, progress.t_arrive, time.begin}, radius});
     }
-    for (TimedSegment& part : parts_of(times, way, time.end - time.begin)) {
+    for (TimedSegment& part : parts_of(times.pieces(way))) {
       part.t_start += time.begin;
       part.t_end += time.begin;
       progress.past.push_back({part, radius});

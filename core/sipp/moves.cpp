@@ -7,9 +7,7 @@
 #include "core/model/drive_zones.h"
 
 namespace fleetplan::core {
-namespace {
 
-/// The parts of a move in which its acceleration is constant, in seconds from its departure.
 std::vector<TimedSegment> parts_of(const std::vector<DriveZones::Piece>& pieces) {
   std::vector<TimedSegment> parts;
   // Bounded: the pieces of one move, and at most three phases of each.
@@ -23,6 +21,8 @@ std::vector<TimedSegment> parts_of(const std::vector<DriveZones::Piece>& pieces)
   }
   return parts;
 }
+
+namespace {
 
 /// The earliest departure of a move of several parts, which follow each other without a stop.
 std::optional<double> departure_of(const ReservationTable& table, const std::vector<TimedSegment>& parts,

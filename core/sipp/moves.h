@@ -71,6 +71,10 @@ class MoveTimes {
   const DriveZones* zones_;  // null if they limit no speeds
 };
 
+/// The parts of a straight move, from rest to rest, in which its acceleration is constant: in seconds from
+/// its departure.
+std::vector<TimedSegment> parts_of(const std::vector<DriveZones::Piece>& pieces);
+
 /// The earliest departure in [t_min, t_max] of a straight move of `duration` seconds (> 0), see
 /// ReservationTable::earliest_departure(); its speed may change on the way.
 std::optional<double> earliest_departure(const ReservationTable& table, const Footprint& footprint,
