@@ -44,7 +44,7 @@ class StepTimes {
       progress.heading = itinerary.pose.theta;
       progress.t_arrive = itinerary.t_begin;
       progress.t_ready = itinerary.t_begin;
-      const auto safe = safe_intervals(k, 0, itinerary.t_begin);
+      const auto safe = safe_intervals(k, 0, 0, itinerary.t_begin);
       const auto now = std::find_if(safe.begin(), safe.end(), [&](const SafeInterval& interval) {
         return interval.contains(itinerary.t_begin);
       });
@@ -79,9 +79,14 @@ class StepTimes {
     return {robots_[k], view(k, stage).body.radius,
             progress_[k].trajectory.moves.size() > instance_.itinerary(robots_[k]).committed.moves.size()};
   }
-  std::vector<SafeInterval> safe_intervals(std::size_t k, int place, double t_from) const {
-    const StepPlaces::Place& at = steps_.robot(k).at(place);
-    return table_.safe_intervals(footprint(k, at.stage), at.position, t_from);
+  /// When a robot may rest at a place that it comes to from another one, with all loads that it has there.
+  std::vector<SafeInterval> safe_intervals(std::size_t k, int from, int place, double t_from) const {
+    const StepPlaces& places = steps_.robot(k);
+    const StepPlaces::Place& at = places.at(place);
+    Footprint widest = footprint(k, at.stage);
+    widest.radius = std::max(widest.radius, view(k, places.at(from).stage).body.radius);
+    if (place == places.last_goal) widest.radius = std::max(widest.radius, view(k, at.stage + 1).body.radius);
+    return table_.safe_intervals(widest, at.position, t_from);
   }
 
   /// Lets a robot that has arrived be served at the goals from this stage on. Returns false if it cannot rest
@@ -138,7 +143,7 @@ class StepTimes {
     const double after_others = free_from(k, times, way, there.radius);
     const double first =
         may_go_on && after_others <= progress.t_arrive ? progress.t_arrive : std::max(turned, after_others);
-    for (const SafeInterval& safe : safe_intervals(k, to, first)) {
+    for (const SafeInterval& safe : safe_intervals(k, from, to, first)) {
       const double t_min = std::max(first, safe.begin - duration);
       const double t_max = std::min(progress.safe.end, safe.end - duration);
       if (t_min > t_max) continue;
