@@ -16,7 +16,7 @@ namespace fleetplan::core {
 /// Plans robots all at once, in steps in each of which robots move one after the other while all others rest,
 /// whatever their lattices, radii, loads, goals and zones are, among the other robots' reservations: first
 /// over few places (SparseVertices), then over more of them, in the end over all vertices. Then gives the
-/// steps times (times_of_steps).
+/// steps times (times_of_steps). If that fails for what else moves, searches with times (TimedStepSearch).
 ///
 /// Complete for steps over vertices, as far as time and memory last, where nothing else moves: if moves of
 /// one robot at a time, each from one vertex to a neighbour while all others rest, lead from the starts to
@@ -25,6 +25,9 @@ namespace fleetplan::core {
 /// all moves before its own have ended meets nobody.
 class PlaceSteps {
  public:
+  /// The most robots: each is compared with each other one.
+  static constexpr std::size_t kMaxRobots = 256;
+
   /// `reservations` and `random` outlive this object.
   PlaceSteps(FleetReservations& reservations, std::vector<std::size_t> robots, Random& random);
   ~PlaceSteps();
@@ -44,8 +47,11 @@ class PlaceSteps {
   struct Level;
 
   Level* level(std::size_t number, const StopCondition& stop);
-  std::optional<std::vector<Configuration>> search(Level& level, std::size_t number,
-                                                   std::size_t max_configurations, const StopCondition& stop);
+  std::optional<std::vector<Trajectory>> search(Level& level, std::size_t number,
+                                                std::size_t max_configurations, const StopCondition& stop);
+  std::optional<std::vector<Trajectory>> search_with_times(Level& level, std::size_t max_configurations,
+                                                           const StopCondition& stop);
+  bool are_few() const;
 
   FleetReservations& reservations_;
   const std::vector<std::size_t> robots_;

@@ -10,6 +10,7 @@
 
 #include "core/moves/configuration_search.h"
 #include "core/moves/joint_steps.h"
+#include "core/moves/known_tuples.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
@@ -46,18 +47,12 @@ class SingleMoveSearch {
   };
   using Open = std::pair<float, std::uint32_t>;
 
-  std::vector<int>::const_iterator places_of(std::uint32_t node) const {
-    return places_.begin() + static_cast<std::ptrdiff_t>(node * steps_.size());
-  }
   void expand(std::uint32_t node);
   void add(const Configuration& at, std::uint32_t before, float way);
-  std::uint32_t& find(const Configuration& at);
-  void grow();
 
   const JointSteps& steps_;
+  KnownTuples known_;  // the places of all robots, by node
   std::vector<Node> nodes_;
-  std::vector<int> places_;           // of all robots, node by node
-  std::vector<std::uint32_t> table_;  // nodes by hash; its size is a power of two
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open_;
   Configuration at_;  // of the node that is expanded
   std::uint32_t end_ = kNone;

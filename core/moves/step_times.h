@@ -6,10 +6,18 @@
 
 #include "core/fleet/fleet_reservations.h"
 #include "core/model/trajectory.h"
+#include "core/moves/configuration_search.h"
 #include "core/moves/joint_steps.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::core {
+
+/// Steps of robots, from each configuration to the next.
+struct StepSequence {
+  std::vector<Configuration> configurations;
+  std::vector<double> departures = {};  // seconds: nobody sets out sooner, by step; empty: at any time
+  double earliest = 0.0;                // seconds: nobody turns sooner
+};
 
 /// Gives the steps of robots times, as a temporal plan graph does (Hönig et al., ICAPS 2016): in the order of
 /// the steps, each robot sets out as soon as it meets nobody who moves before it, and neither obstacles nor
@@ -17,11 +25,14 @@ namespace fleetplan::core {
 /// does not count.
 ///
 /// Returns a trajectory for each of the robots, in their order; none if a robot would have to be elsewhere
-/// at some time, even if all wait at first until everything else has come to rest, or if `stop` is met first.
+/// at some time, or if `stop` is met first.
 std::optional<std::vector<Trajectory>> times_of_steps(FleetReservations& reservations,
                                                       const std::vector<std::size_t>& robots,
-                                                      const JointSteps& steps,
-                                                      const std::vector<Configuration>& configurations,
+                                                      const JointSteps& steps, const StepSequence& sequence,
                                                       const StopCondition& stop);
+
+/// When obstacles, committed motion and all robots but these have come to rest, seconds; 0 if nothing else
+/// moves.
+double rest_of_others(const FleetReservations& reservations, const std::vector<std::size_t>& robots);
 
 }  // namespace fleetplan::core
