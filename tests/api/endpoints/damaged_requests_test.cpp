@@ -12,6 +12,7 @@
 #include "api/endpoints/endpoints.h"
 #include "tests/api/support/answers.h"
 #include "tests/api/support/motion_requests.h"
+#include "tests/support/sanitized.h"
 
 namespace fleetplan::api {
 namespace TEST_FILE {
@@ -184,11 +185,13 @@ void expect_proper(const Reply& reply, const std::string& request) {
 
 TEST(DamagedRequests, AreServedOrRefusedByAllEndpointsWhereverTheDamageIs) {
   std::map<int, int> counts;
+  int tried = 0;
   for (const auto& [endpoint, request] : requests_about(fleet())) {
     ASSERT_EQ(endpoint(request.dump(), {}).status, 200) << endpoint(request.dump(), {}).body << request;
     std::vector<Pointer> places;
     add_places(request, Pointer(), places);
     for (const Pointer& at : places) {
+      if (support::kSanitized && ++tried % 3 != 0) continue;
       for (const std::string& body : damaged(request, at)) {
         SCOPED_TRACE(at.to_string());
         const Reply reply = endpoint(body, {});
@@ -199,8 +202,9 @@ TEST(DamagedRequests, AreServedOrRefusedByAllEndpointsWhereverTheDamageIs) {
   }
   RecordProperty("served", counts[200]);
   RecordProperty("refused", counts[422]);
-  EXPECT_GT(counts[200], 1000);
-  EXPECT_GT(counts[422], 1000);
+  const int least = support::kSanitized ? 300 : 1000;
+  EXPECT_GT(counts[200], least);
+  EXPECT_GT(counts[422], least);
 }
 
 }  // namespace TEST_FILE

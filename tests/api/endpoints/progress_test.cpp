@@ -19,6 +19,7 @@
 #include "api/endpoints/endpoints.h"
 #include "tests/api/support/fleet_json.h"
 #include "tests/api/support/lives.h"
+#include "tests/support/sanitized.h"
 
 namespace fleetplan::api {
 namespace TEST_FILE {
@@ -290,7 +291,7 @@ class Life {
 
 TEST(Progress, EveryGoalOfAWellFormedFleetIsServed) {
   const std::uint64_t first = from_environment("FLEETPLAN_FIRST_LIFE", 0);
-  const std::uint64_t rounds = from_environment("FLEETPLAN_ROUNDS", 1500);
+  const std::uint64_t rounds = from_environment("FLEETPLAN_ROUNDS", support::kSanitized ? 450 : 1500);
   std::uint64_t done = 0;
   for (std::uint64_t seed = first; done < rounds; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);

@@ -27,6 +27,7 @@
 #include "tests/api/support/expect_actions.h"
 #include "tests/api/support/life_requests.h"
 #include "tests/api/support/lives.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/summary.h"
 #include "tests/support/unbounded_work.h"
 
@@ -331,7 +332,7 @@ class Life {
 
 TEST(RandomLives, GoOnFromAnyMomentAndMayStopWhereTheirCommitmentsEnd) {
   const std::uint64_t first = from_environment("FLEETPLAN_FIRST_LIFE", 0);
-  const std::uint64_t rounds = from_environment("FLEETPLAN_ROUNDS", 300);
+  const std::uint64_t rounds = from_environment("FLEETPLAN_ROUNDS", support::kSanitized ? 100 : 300);
   std::uint64_t done = 0;
   for (std::uint64_t seed = first; done < rounds; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);

@@ -16,6 +16,7 @@
 #include "tests/api/support/answers.h"
 #include "tests/api/support/lives.h"
 #include "tests/support/random_problem.h"
+#include "tests/support/sanitized.h"
 
 namespace fleetplan::api {
 namespace TEST_FILE {
@@ -300,7 +301,7 @@ class Fleet {
 TEST(RandomReports, OpenNoGateWrongly) {
   constexpr int kSteps = 60;
   constexpr int kStepsToTheEnd = 400;
-  const std::uint64_t fleets = from_environment("FLEETPLAN_ROUNDS", 40);
+  const std::uint64_t fleets = from_environment("FLEETPLAN_ROUNDS", support::kSanitized ? 15 : 40);
   const std::uint64_t first = from_environment("FLEETPLAN_FIRST_LIFE", 1);
   int dependencies = 0;
   for (std::uint64_t seed = first; seed < first + fleets; ++seed) {

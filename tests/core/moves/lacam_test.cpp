@@ -9,6 +9,7 @@
 #include "core/moves/step_lines.h"
 #include "tests/core/support/planning.h"
 #include "tests/support/random_problem.h"
+#include "tests/support/sanitized.h"
 
 namespace fleetplan::core {
 namespace TEST_FILE {
@@ -157,7 +158,7 @@ std::vector<int> joined_vertices(const StepProblem::Neighbours& graph) {
 }
 
 TEST(Lacam, PlansRandomFleetsOfAnyDensity) {
-  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+  for (std::uint64_t seed = 0; seed < (support::kSanitized ? 60U : 200U); ++seed) {
     support::Dice dice(seed);
     StepProblem problem{{graph_of(aisles(2 + dice.below(4), 1 + dice.below(4)))}, {}};
     const std::vector<int> vertices = joined_vertices(problem.graphs[0]);
@@ -176,7 +177,7 @@ TEST(Lacam, PlansRandomFleetsOfAnyDensity) {
 /// Robots of the second kind do not fit everywhere: nobody may pull them there.
 TEST(Lacam, KeepsRandomFleetsOfTwoKindsToTheirGraphs) {
   int planned = 0;
-  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+  for (std::uint64_t seed = 0; seed < (support::kSanitized ? 100U : 300U); ++seed) {
     support::Dice dice(seed);
     std::vector<std::string> rows = aisles(2 + dice.below(2), 1 + dice.below(3));
     StepProblem problem{{graph_of(rows)}, {}};
@@ -198,7 +199,7 @@ TEST(Lacam, KeepsRandomFleetsOfTwoKindsToTheirGraphs) {
     ++planned;
     expect_valid(problem, *plan);
   }
-  EXPECT_GT(planned, 50);
+  EXPECT_GT(planned, support::kSanitized ? 15 : 50);
 }
 
 TEST(Lacam, TellsAtOnceThatRobotsCannotPassOnALine) {
