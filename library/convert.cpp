@@ -308,6 +308,15 @@ Plan plan_of(const core::Plan& plan, const Problem& problem, const core::OpenGoa
   made.search.expansions = plan.search.expansions;
   made.search.improvements = plan.search.improvements;
   made.search.exhausted = plan.search.exhausted;
+  const auto counts_of = [&](core::Method method) {
+    const core::MethodCounts& counts = plan.search.moves[static_cast<std::size_t>(method)];
+    return MethodCounts{counts.tried, counts.served, counts.could_not_serve};
+  };
+  made.search.priorities = counts_of(core::Method::priorities);
+  made.search.steps = counts_of(core::Method::steps);
+  made.search.room = counts_of(core::Method::room);
+  made.search.smoothing = counts_of(core::Method::smoothing);
+  made.search.improvement = counts_of(core::Method::improvement);
   return made;
 }
 

@@ -38,6 +38,22 @@ std::string_view name_of(core::Unplanned::Reason reason) {
   return "budget_exhausted";
 }
 
+std::string_view name_of(core::Method method) {
+  switch (method) {
+    case core::Method::priorities:
+      return "priorities";
+    case core::Method::steps:
+      return "steps";
+    case core::Method::room:
+      return "room";
+    case core::Method::smoothing:
+      return "smoothing";
+    case core::Method::improvement:
+      break;
+  }
+  return "improvement";
+}
+
 PlanOutcome::Status status_of(const core::Plan& plan) {
   if (plan.unplanned.empty()) return PlanOutcome::Status::solved;
   return plan.plans.empty() ? PlanOutcome::Status::none : PlanOutcome::Status::partial;

@@ -35,6 +35,9 @@ std::string_view name_of(PlanOutcome::Status status);
 /// Returns the reason as it is in answers and metrics, e.g. "goal_blocked".
 std::string_view name_of(core::Unplanned::Reason reason);
 
+/// Returns the method as it is in answers, e.g. "steps".
+std::string_view name_of(core::Method method);
+
 /// Returns the status of a plan that the checker accepts.
 PlanOutcome::Status status_of(const core::Plan& plan);
 

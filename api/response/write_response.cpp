@@ -394,6 +394,16 @@ void write_summary(JsonWriter& json, const VerifiedPlan& verified) {
   json.key("search").begin_object();
   json.member("attempts", plan.search.attempts).member("expansions", plan.search.expansions);
   json.member("improvements", plan.search.improvements);
+  json.key("moves").begin_object();
+  for (std::size_t k = 0; k < core::kMethods; ++k) {
+    const core::MethodCounts& counts = plan.search.moves[k];
+    if (counts.tried == 0) continue;
+    json.key(name_of(static_cast<core::Method>(k))).begin_object();
+    json.member("tried", counts.tried).member("served", counts.served);
+    json.member("could_not_serve", counts.could_not_serve);
+    json.end_object();
+  }
+  json.end_object();
   if (plan.search.exhausted) json.member("exhausted", true);
   json.end_object();
 }

@@ -1,13 +1,15 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 #include "core/fleet/fleet_reservations.h"
+#include "core/model/plan.h"
 #include "core/model/progress.h"
 
 namespace fleetplan::core {
 
-/// Reports the progress of planning to an observer, if there is one.
+/// Reports the progress of planning to an observer, if there is one, and counts which methods planned whom.
 class ProgressReport {
  public:
   /// Reports the robots that follow a trajectory as planned. `observer` may be null.
@@ -33,6 +35,15 @@ class ProgressReport {
     update();
   }
 
+  /// Counts robots that a method was to plan.
+  void count(Method method, const MethodCounts& robots) {
+    MethodCounts& all = counts_[static_cast<std::size_t>(method)];
+    all.tried += robots.tried;
+    all.served += robots.served;
+    all.could_not_serve += robots.could_not_serve;
+  }
+  const std::array<MethodCounts, kMethods>& counts() const { return counts_; }
+
   Observer* observer() const { return observer_; }
 
  private:
@@ -45,6 +56,7 @@ class ProgressReport {
   Observer* observer_;
   std::size_t parked_ = 0;
   Progress progress_;
+  std::array<MethodCounts, kMethods> counts_{};
 };
 
 }  // namespace fleetplan::core

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <new>
 #include <numbers>
 #include <utility>
@@ -110,10 +111,17 @@ Smoothed smooth(PlanState& state, std::size_t robot, const Trajectory& trajector
 }
 
 bool smooth_briefly(PlanState& state, std::vector<std::size_t> robots, Random& random,
-                    const StopCondition& stop) {
+                    const StopCondition& stop, ProgressReport& progress) {
   FleetReservations& reservations = state.reservations();
   std::erase_if(robots, [&](std::size_t robot) { return reservations.trajectory(robot)->is_previous; });
-  if (!may_smooth(state.instance().options()) || robots.empty()) return false;
+  if (robots.empty() || !state.instance().options().smoothing) return false;
+  MethodCounts counts{.tried = std::ssize(robots)};
+  counts.could_not_serve = std::count_if(robots.begin(), robots.end(), [&](std::size_t robot) {
+    return !may_smooth(state.instance().options()) || !TimedPath::may_be_timed(state.instance(), robot);
+  });
+  counts.served = counts.tried - counts.could_not_serve;
+  progress.count(Method::smoothing, counts);
+  if (counts.served == 0) return false;
   const StopCondition soon = after_share(stop, budget::kShareOfBriefSmoothing);
   if (soon.met()) return true;
   reservations.resume();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/fleet/plan_state.h"
+#include "core/fleet/progress_report.h"
 #include "core/model/plan_options.h"
 #include "core/model/trajectory.h"
 #include "core/runtime/random.h"
@@ -33,8 +34,8 @@ Smoothed smooth(PlanState& state, std::size_t robot, const Trajectory& trajector
                 const StopCondition& stop);
 
 /// Smooths the new trajectories of these robots, briefly, one after the other, in a share of the time that is
-/// left. Returns whether it ended early.
+/// left. Counts them in `progress`. Returns whether it ended early.
 bool smooth_briefly(PlanState& state, std::vector<std::size_t> robots, Random& random,
-                    const StopCondition& stop);
+                    const StopCondition& stop, ProgressReport& progress);
 
 }  // namespace fleetplan::core

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -117,11 +118,25 @@ inline Objectives including(const Objectives& objectives, double cost) {
   return {objectives.flowtime + cost, std::max(objectives.makespan, cost)};
 }
 
+/// How robots are planned: one after the other (with repairs and other orders), all at once in steps, with
+/// room for two where they meet; and how plans become better: without the lattice, or by other plans.
+enum class Method : std::uint8_t { priorities, steps, room, smoothing, improvement };
+/// Method::improvement is the last one.
+inline constexpr std::size_t kMethods = static_cast<std::size_t>(Method::improvement) + 1;
+
+/// How many robots a method was to plan; each time counts.
+struct MethodCounts {
+  std::int64_t tried = 0;
+  std::int64_t served = 0;           // have a plan of it, or one that it may change
+  std::int64_t could_not_serve = 0;  // for what they or the request ask for, it is not made
+};
+
 /// Counts of the search for a plan.
 struct SearchStatistics {
-  std::int64_t attempts = 0;      // priority orders tried
-  std::int64_t expansions = 0;    // search labels expanded
-  std::int64_t improvements = 0;  // improvements found in mode `anytime`
+  std::int64_t attempts = 0;                   // priority orders tried
+  std::int64_t expansions = 0;                 // search labels expanded
+  std::int64_t improvements = 0;               // improvements found in mode `anytime`
+  std::array<MethodCounts, kMethods> moves{};  // by Method
   /// More time would change nothing: in mode `anytime` no robot can become cheaper, or no further attempt can
   /// plan a robot that is unplanned.
   bool exhausted = false;

@@ -1,6 +1,7 @@
 #include "core/moves/fleet_steps.h"
 
 #include <algorithm>
+#include <iterator>
 #include <new>
 #include <utility>
 
@@ -22,6 +23,7 @@ StepsOutcome FleetSteps::follow(const std::vector<std::size_t>& order,
     // Its motion is not known to steps.
     if (!moves[i] && reservations_.trajectory(i)) return StepsOutcome::none;
   }
+  MethodCounts counts{.tried = std::ssize(robots)};
   const StopCondition part = after_share(stop, budget::kShareOfSteps);
   const FleetReservations::Snapshot before = reservations_.snapshot();
   StepsOutcome outcome = StepsOutcome::none;
@@ -31,6 +33,11 @@ StepsOutcome FleetSteps::follow(const std::vector<std::size_t>& order,
     outcome = StepsOutcome::limited;
     on_places_.reset();
   }
+  if (outcome == StepsOutcome::followed) counts.served = counts.tried;
+  if (outcome == StepsOutcome::limited && robots.size() > PlaceSteps::kMaxRobots) {
+    counts.could_not_serve = counts.tried;
+  }
+  progress_.count(Method::steps, counts);
   if (outcome == StepsOutcome::followed) {
     progress_.next_attempt();
     progress_.update();

@@ -1,6 +1,7 @@
 #include "core/moves/prioritized_planning.h"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -89,6 +90,7 @@ class PrioritizedPlanning {
 
   PrioritizedResult run() {
     OrderingResult ordering = plan_in_orders();
+    count_planned();
     result_.attempts += ordering.attempts;
     result_.cut_off =
         result_.cut_off || ordering.cut_off || best_.has_value() || ordering.steps == StepsOutcome::cut_off;
@@ -117,6 +119,13 @@ class PrioritizedPlanning {
   }
 
  private:
+  void count_planned() {
+    const auto planned = std::count_if(order_.begin(), order_.end(), [&](std::size_t robot) {
+      return state_.reservations().trajectory(robot).has_value();
+    });
+    progress_.count(Method::priorities, {std::ssize(order_), planned, 0});
+  }
+
   static bool solved(const OrderingResult& ordering) {
     return ordering.unsolved.empty() && ordering.given_up.empty();
   }
@@ -258,13 +267,23 @@ class PrioritizedPlanning {
       replan_after_steps(robots);
       keep_if_better();
     }
-    if (has_few_robots() && make_room(state_, robots, stop_, progress_)) {
+    if (has_few_robots() && makes_room(robots)) {
       ++result_.attempts;
       keep_if_better();
     }
     result_.cut_off = result_.cut_off || stop_.met();
     if (best) reservations.restore(std::move(*best));
     return best.has_value();
+  }
+
+  bool makes_room(const std::vector<std::size_t>& robots) {
+    const bool succeeds = make_room(state_, robots, stop_, progress_);
+    const auto with_loads = std::count_if(robots.begin(), robots.end(), [&](std::size_t robot) {
+      return state_.instance().views(robot).change();
+    });
+    progress_.count(Method::room,
+                    {std::ssize(robots), succeeds ? std::ssize(robots) : 0, succeeds ? 0 : with_loads});
+    return succeeds;
   }
 
   bool other_orders_may_help(const OrderingResult& ordering) const {

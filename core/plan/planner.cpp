@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -289,7 +290,7 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
   }
   std::erase_if(movers, [&](std::size_t robot) { return !state.reservations().trajectory(robot); });
   bool cut_off = undo_vain_moves(state, stop);
-  cut_off = smooth_briefly(state, movers, random, stop) || cut_off;
+  cut_off = smooth_briefly(state, movers, random, stop, progress) || cut_off;
   unplanned = with_zones_named(problem, options, std::move(unplanned), stop);
   const UnavoidableCollisions found =
       find_unavoidable(state.reservations(), unplanned, beyond_budget(stop, budget::kMaxForUnavoidable));
@@ -304,7 +305,7 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
     Plan plan = collect_plan(state.reservations(), unplanned, bounds);
     plan.unavoidable = found.collisions;
     plan.unavoidable_known = found.finished;
-    plan.search = {prioritized.attempts, expansions + lns.expansions, lns.improvements};
+    plan.search = {prioritized.attempts, expansions + lns.expansions, lns.improvements, progress.counts()};
     return plan;
   };
   if (timer != nullptr) timer->begin(PlanPart::improve);
@@ -313,8 +314,10 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
     BeforeRound before_round;
     if (observer != nullptr) before_round = ImprovementReport(state.reservations(), progress, current_plan);
     if (!stop.is_over()) state.reservations().resume();
-    lns = large_neighbourhood_search(state, changeable_robots(state, movers), bounds, random, executor, stop,
-                                     before_round);
+    const std::vector<std::size_t> changeable = changeable_robots(state, movers);
+    progress.count(Method::improvement,
+                   {std::ssize(movers), std::ssize(changeable), std::ssize(movers) - std::ssize(changeable)});
+    lns = large_neighbourhood_search(state, changeable, bounds, random, executor, stop, before_round);
     cut_off = undo_vain_moves(state, briefly(stop)) || cut_off;
   }
 

@@ -26,8 +26,13 @@ TimedPath::TimedPath(const Instance& instance, const ReservationTable& table, st
       view_(instance.views(robot)[0]),
       itinerary_(instance.itinerary(robot)),
       times_(view_.body, view_.zones.get()),
-      may_be_timed_(!instance.views(robot).change() && !instance.options().horizon && !itinerary_.yields() &&
-                    !itinerary_.is_parked()) {}
+      may_be_timed_(may_be_timed(instance, robot)) {}
+
+bool TimedPath::may_be_timed(const Instance& instance, std::size_t robot) {
+  const Itinerary& itinerary = instance.itinerary(robot);
+  return !instance.views(robot).change() && !instance.options().horizon && !itinerary.yields() &&
+         !itinerary.is_parked();
+}
 
 bool TimedPath::follow(const Trajectory& trajectory) {
   constexpr double kAsFast = 1e-6;  // seconds; far above rounding

@@ -34,6 +34,8 @@ class TimedPath {
   /// arguments outlive this object.
   TimedPath(const Instance& instance, const ReservationTable& table, std::size_t robot,
             const StopCondition& stop);
+  /// Whether paths of the robot can be timed.
+  static bool may_be_timed(const Instance& instance, std::size_t robot);
   TimedPath(const TimedPath&) = delete;
   TimedPath& operator=(const TimedPath&) = delete;
 

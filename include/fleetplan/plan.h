@@ -80,13 +80,23 @@ struct Objectives {
   double makespan = 0.0;
 };
 
+/// How many robots a method of the planner was to plan; each time counts.
+struct MethodCounts {
+  std::int64_t tried = 0;
+  std::int64_t served = 0;           // have a plan of it, or one that it may change
+  std::int64_t could_not_serve = 0;  // for what they or the options ask for, it is not made
+};
+
 /// What the search did.
 struct SearchStatistics {
   std::int64_t attempts = 0;      // priority orders tried
   std::int64_t expansions = 0;    // search labels expanded
   std::int64_t improvements = 0;  // found in mode `anytime`
   bool exhausted = false;         // more time would change nothing
-  double seconds = 0.0;           // planning, without reading the problem and without the check
+  // The methods: one robot after the other, all at once in steps, with room for two where they meet, paths
+  // without the lattice, other plans of a few robots.
+  MethodCounts priorities, steps, room, smoothing, improvement;
+  double seconds = 0.0;  // planning, without reading the problem and without the check
 };
 
 /// The result of the planner. Every robot is in exactly one of `plans` and `unplanned`, which are in the

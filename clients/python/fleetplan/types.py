@@ -399,10 +399,25 @@ class Objectives(TypedDict):
     makespan: float
 
 
+class MethodCounts(TypedDict):
+    tried: int
+    served: int
+    could_not_serve: int
+
+
+class Moves(TypedDict, total=False):
+    priorities: MethodCounts
+    steps: MethodCounts
+    room: MethodCounts
+    smoothing: MethodCounts
+    improvement: MethodCounts
+
+
 class Search(TypedDict):
     attempts: int
     expansions: int
     improvements: int
+    moves: Moves
     exhausted: NotRequired[Literal[True]]
 
 

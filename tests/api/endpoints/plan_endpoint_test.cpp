@@ -127,6 +127,25 @@ TEST(PlanEndpoint, ReturnsTheLowerBoundOfEachRobotAndTheirSumAndMaximum) {
   EXPECT_EQ(answer["lower_bound"]["makespan"], most);
 }
 
+TEST(PlanEndpoint, TellsWhichMethodsPlannedWhom) {
+  Json request = swap_request();
+  Json moves = planned(request)["search"]["moves"];
+  EXPECT_EQ(moves["priorities"], Json({{"tried", 2}, {"served", 2}, {"could_not_serve", 0}}));
+  EXPECT_EQ(moves["smoothing"]["served"], 2);
+  EXPECT_FALSE(moves.contains("steps")) << moves;
+  request["robots"][0]["goals"] = {{{"x", 4.5}, {"y", 0.5}, {"radius_after", 0.35}},
+                                   request["robots"][0]["goal"]};
+  request["robots"][0].erase("goal");
+  moves = planned(request)["search"]["moves"];
+  EXPECT_EQ(moves["smoothing"], Json({{"tried", 2}, {"served", 1}, {"could_not_serve", 1}})) << "a load";
+  request = swap_request();
+  request["robots"][0]["goal"]["x"] = request["robots"][1]["start"]["x"] = 5.5;
+  request["robots"][1]["goal"]["x"] = request["robots"][0]["start"]["x"] = 3.5;
+  request["map"]["rows"] = {"#.#######", ".........", "#########"};
+  moves = planned(request)["search"]["moves"];
+  EXPECT_EQ(moves["steps"], Json({{"tried", 2}, {"served", 2}, {"could_not_serve", 0}})) << moves;
+}
+
 TEST(PlanEndpoint, ReturnsTheDocumentedMembersInOrder) {
   const Json answer = planned(swap_request());
   EXPECT_THAT(keys_of(answer),
@@ -137,7 +156,7 @@ TEST(PlanEndpoint, ReturnsTheDocumentedMembersInOrder) {
               ElementsAre("type", "t_start", "t_end", "from", "to"));
   EXPECT_THAT(keys_of(answer["plans"][0]["actions"][0]["to"]), ElementsAre("x", "y", "theta"));
   EXPECT_THAT(keys_of(answer["lower_bound"]), ElementsAre("flowtime", "makespan"));
-  EXPECT_THAT(keys_of(answer["search"]), ElementsAre("attempts", "expansions", "improvements"));
+  EXPECT_THAT(keys_of(answer["search"]), ElementsAre("attempts", "expansions", "improvements", "moves"));
   EXPECT_THAT(keys_of(answer["timings_ms"]),
               ElementsAre("queue", "parse", "plan", "choose", "first_plan", "bounds", "improve", "verify",
                           "serialize", "total"));

@@ -210,7 +210,7 @@ TEST(Smoothing, MakesTheShareInTheTardinessLess) {
 /// The robots are smoothed one after the other, which gains something or not.
 double gained_briefly(Corners& p, const StopCondition& stop = StopCondition::never()) {
   const double before = p.now().cost;
-  EXPECT_EQ(smooth_briefly(p.state, {0}, p.random, stop), stop.met());
+  EXPECT_EQ(smooth_briefly(p.state, {0}, p.random, stop, p.progress), stop.met());
   return before - p.now().cost;
 }
 
@@ -220,6 +220,7 @@ TEST(SmoothBriefly, ReplacesTrajectories) {
   EXPECT_GT(gain, 0.05);
   EXPECT_DOUBLE_EQ(p.now().smoothed_by, gain);
   expect_safe(p.reservations);
+  EXPECT_EQ(p.progress.counts()[static_cast<std::size_t>(Method::smoothing)].served, 1);
 }
 
 TEST(SmoothBriefly, SmoothsOneRobotAfterTheOther) {
@@ -230,7 +231,7 @@ TEST(SmoothBriefly, SmoothsOneRobotAfterTheOther) {
     p.reservations.follow(robot, *p.state.plan(robot, kExact, p.never).trajectory);
     before += p.reservations.trajectory(robot)->cost;
   }
-  EXPECT_FALSE(smooth_briefly(p.state, p.movers(), p.random, p.never));
+  EXPECT_FALSE(smooth_briefly(p.state, p.movers(), p.random, p.never, p.progress));
   double after = 0.0;
   for (const std::size_t robot : p.movers()) {
     EXPECT_GT(p.reservations.trajectory(robot)->smoothed_by, 0.0);
