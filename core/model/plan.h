@@ -61,7 +61,8 @@ struct RobotPlan {
   /// Then the visits are those before the horizon, and there are estimates of those that are left.
   std::optional<double> estimated_cost = {};
   std::vector<Visit> estimated_visits = {};
-  /// Whether the plan stops at the horizon and the robot gains nothing on the way to its goals until then.
+  /// Whether the plan stops at the horizon and the robot gains nothing on the way to its goals until then, or
+  /// would come and go for ever, as it and those that block it cannot all arrive.
   bool is_stuck = false;
   RobotList blocked_by = {};  // the robots in the way of a robot that is stuck, as far as they were found
 };

@@ -19,16 +19,16 @@ StepsOutcome FleetSteps::follow(const std::vector<std::size_t>& order,
   for (const std::size_t robot : order) {
     if (moves[robot]) robots.push_back(robot);
   }
+  bool others_move = false;
   for (std::size_t i = 0; i < moves.size(); ++i) {
-    // Its motion is not known to steps.
-    if (!moves[i] && reservations_.trajectory(i)) return StepsOutcome::none;
+    others_move = others_move || (!moves[i] && reservations_.trajectory(i));
   }
   MethodCounts counts{.tried = std::ssize(robots)};
   const StopCondition part = after_share(stop, budget::kShareOfSteps);
   const FleetReservations::Snapshot before = reservations_.snapshot();
   StepsOutcome outcome = StepsOutcome::none;
   try {
-    outcome = follow_until(robots, part);
+    outcome = follow_until(robots, others_move, part);
   } catch (const std::bad_alloc&) {  // not granted to the job
     outcome = StepsOutcome::limited;
     on_places_.reset();
@@ -47,9 +47,13 @@ StepsOutcome FleetSteps::follow(const std::vector<std::size_t>& order,
   return part.met() ? StepsOutcome::cut_off : outcome;
 }
 
-StepsOutcome FleetSteps::follow_until(const std::vector<std::size_t>& robots, const StopCondition& stop) {
-  auto trajectories =
-      plan_on_lattice(reservations_, robots, random_, after_share(stop, budget::kShareOfLattice));
+StepsOutcome FleetSteps::follow_until(const std::vector<std::size_t>& robots, bool others_move,
+                                      const StopCondition& stop) {
+  std::optional<std::vector<Trajectory>> trajectories;
+  if (!others_move) {
+    trajectories =
+        plan_on_lattice(reservations_, robots, random_, after_share(stop, budget::kShareOfLattice));
+  }
   if (trajectories && follow_all(robots, std::move(*trajectories), stop)) return StepsOutcome::followed;
   PlaceSteps& places = on_places(robots);
   trajectories = places.run(stop);

@@ -17,7 +17,7 @@ namespace fleetplan::core {
 /// Whether robots follow a plan in steps.
 enum class StepsOutcome : std::uint8_t {
   followed,
-  /// Steps lead to no plan, or do not describe what the robots of the fleet do.
+  /// All that steps reach was searched: they lead to no plan.
   none,
   /// There may be a plan: the search has become as large as it may.
   limited,
@@ -36,14 +36,15 @@ class FleetSteps {
   FleetSteps(FleetReservations& reservations, Random& random, ProgressReport& progress)
       : reservations_(reservations), random_(random), progress_(progress) {}
 
-  /// Plans the robots of `order`, which no others but those that stay share the map with, in steps, except
-  /// for the `hopeless` ones, which stay. If all of them have a plan in which nobody meets, they follow it;
+  /// Plans the robots of `order` in steps, among the others as they move, except for the `hopeless` ones,
+  /// which stay. If all of them have a plan in which nobody meets, they follow it;
   /// if not, no reservation has changed. Takes a part of the time until `stop`.
   StepsOutcome follow(const std::vector<std::size_t>& order, const std::vector<std::size_t>& hopeless,
                       const StopCondition& stop);
 
  private:
-  StepsOutcome follow_until(const std::vector<std::size_t>& robots, const StopCondition& stop);
+  StepsOutcome follow_until(const std::vector<std::size_t>& robots, bool others_move,
+                            const StopCondition& stop);
   bool follow_all(const std::vector<std::size_t>& robots, std::vector<Trajectory> trajectories,
                   const StopCondition& stop);
   PlaceSteps& on_places(const std::vector<std::size_t>& robots);

@@ -102,10 +102,22 @@ class PlanningAroundKept {
     result_.attempts = ordering.attempts;
     result_.cut_off = ordering.cut_off || in_second_part_;
     if (ordering.unsolved.empty() && ordering.given_up.empty()) return true;
+    if (move_in_steps(ordering)) return true;
     keep_if_better(
         make_safe(state_, ordering.unsolved, ordering.given_up, Effort::full, time_.all, progress_));
     others_may_help_ = ordering.hopeless.size() < ordering.given_up.size() || !ordering.unsolved.empty();
     return best_.plan.staying.empty();
+  }
+
+  /// Plans the robots that have no plan in steps, among the plans of the others. Returns whether all have
+  /// one.
+  bool move_in_steps(const OrderingResult& ordering) {
+    std::vector<std::size_t> failed = ordering.unsolved;
+    failed.insert(failed.end(), ordering.given_up.begin(), ordering.given_up.end());
+    if (failed.size() > FleetSteps::kMaxWholeWays || ordering.cut_off) return false;
+    const auto outcome = FleetSteps(reservations_, random_, progress_).follow(failed, {}, time_.all);
+    result_.cut_off = result_.cut_off || outcome == StepsOutcome::cut_off;
+    return outcome == StepsOutcome::followed;
   }
 
   /// Returns the robots by priority, those with trajectories first.

@@ -9,6 +9,7 @@
 #include "core/moves/fleet_steps.h"
 #include "core/moves/making_room.h"
 #include "core/moves/orderings.h"
+#include "core/moves/place_steps.h"
 #include "core/moves/repair.h"
 #include "core/moves/safe_plan.h"
 #include "core/moves/yielding.h"
@@ -97,7 +98,7 @@ class PrioritizedPlanning {
     result_.is_limited = ordering.steps == StepsOutcome::limited;
     if (solved(ordering)) {
       if (ordering.steps == StepsOutcome::followed) replan_after_steps(order_);
-      if (may_go_on_for_ever()) plan_whole_ways();
+      if (const auto robot = shuttling_robot()) plan_whole_ways(*robot);
       return std::move(result_);
     }
     if (may_need_room(ordering) && give_way(ordering.hopeless, ordering.steps.has_value())) {
@@ -199,21 +200,22 @@ class PrioritizedPlanning {
     best_ = PlanSnapshot{std::move(plan), state_.reservations().snapshot()};
   }
 
-  /// Whether what is planned up to the horizon may go on like that for ever: the robot whose goal is the
-  /// oldest has no plan beyond it, since others would have to go back a long way, or one that has arrived
+  /// A robot with which what is planned up to the horizon may go on like that for ever: the one whose goal is
+  /// the oldest has no plan beyond it, since others would have to go back a long way, or one that has arrived
   /// leaves its goal and does not come back. Robots whose goals lie in each other's way would come and leave
   /// in turn.
-  bool may_go_on_for_ever() const {
-    if (!state_.instance().options().horizon || order_.empty()) return false;
-    if (order_.size() > FleetSteps::kMaxWholeWays) return false;
+  std::optional<std::size_t> shuttling_robot() const {
+    if (!state_.instance().options().horizon || order_.empty()) return std::nullopt;
+    if (order_.size() > FleetSteps::kMaxWholeWays) return std::nullopt;
     if (state_.instance().itinerary(order_.front()).goal_age > 0.0 && !state_.whole_way_of() &&
         stops_at_horizon(order_.front())) {
-      return true;
+      return order_.front();
     }
-    return std::any_of(order_.begin(), order_.end(), [&](std::size_t robot) {
+    const auto leaving = std::find_if(order_.begin(), order_.end(), [&](std::size_t robot) {
       const Itinerary& itinerary = state_.instance().itinerary(robot);
       return !itinerary.yields() && has_arrived(itinerary) && stops_at_horizon(robot);
     });
+    return leaving == order_.end() ? std::nullopt : std::optional(*leaving);
   }
 
   bool stops_at_horizon(std::size_t robot) const {
@@ -222,8 +224,27 @@ class PrioritizedPlanning {
   }
 
   /// Plans all robots in steps, to their goals, beyond the horizon: that plan is kept until somebody has a
-  /// new goal, so that everybody arrives.
-  void plan_whole_ways() { steps_succeed({}, stop_); }
+  /// new goal, so that everybody arrives. If there is none, says so of this robot.
+  void plan_whole_ways(std::size_t robot) {
+    if (steps_succeed({}, stop_) || result_.is_limited || result_.cut_off) return;
+    PrioritizedResult::Shuttling shuttling{robot, {}};
+    for (const std::size_t other : order_) {
+      if (other != robot && cannot_both_arrive(robot, other)) shuttling.others.push_back(other);
+    }
+    if (shuttling.others.empty()) {
+      std::copy_if(order_.begin(), order_.end(), std::back_inserter(shuttling.others),
+                   [&](std::size_t other) { return other != robot; });
+    }
+    std::sort(shuttling.others.begin(), shuttling.others.end());
+    result_.shuttling = std::move(shuttling);
+  }
+
+  bool cannot_both_arrive(std::size_t robot, std::size_t other) {
+    const IgnoredRobots others(state_.reservations(), order_);
+    PlaceSteps steps(state_.reservations(), {robot, other}, random_);
+    steps.run(stop_);
+    return steps.has_no_way();
+  }
 
   /// Steps cost more than it takes: they let one robot move at a time, and only from vertex to vertex.
   void replan_after_steps(const std::vector<std::size_t>& robots) {

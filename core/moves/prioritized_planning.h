@@ -21,6 +21,13 @@ struct PrioritizedResult {
   std::vector<Unplanned> unplanned;  // ascending
   std::int64_t attempts = 0;
   bool cut_off = false;  // the stop condition decided something
+  /// With a horizon: a robot that would come and go for ever, as it and others cannot all arrive, however far
+  /// they go.
+  struct Shuttling {
+    std::size_t robot = 0;
+    std::vector<std::size_t> others;  // ascending
+  };
+  std::optional<Shuttling> shuttling;
   /// The last plan in steps failed for the size that its search may have: it proves nothing.
   bool is_limited = false;
 };

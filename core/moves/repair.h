@@ -43,8 +43,8 @@ std::optional<OrderingResult> repair_unless(std::int64_t max_failures, PlanState
                                             const OnStop& on_stop);
 
 /// Plans the robots of `order` as repair_all() does, from a state in which some of them follow trajectories
-/// already. They keep these until a robot with a higher priority needs their way. Plans in steps would give
-/// up all of them, so there are none.
+/// already. They keep these until a robot with a higher priority needs their way, and are not planned in
+/// steps.
 OrderingResult repair_around(PlanState& state, const PriorityOrder& order, Random& random,
                              const StopCondition& stop, ProgressReport& progress,
                              const OnStop& on_stop = nullptr);

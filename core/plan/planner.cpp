@@ -221,6 +221,15 @@ UnavoidableCollisions find_unavoidable(const FleetReservations& reservations,
   return found;
 }
 
+/// Says of a robot that it would come and go for ever that it is stuck.
+void name_shuttling(Plan& plan, const PrioritizedResult::Shuttling& shuttling) {
+  for (RobotPlan& robot : plan.plans) {
+    if (robot.robot != shuttling.robot || !robot.estimated_cost) continue;
+    robot.is_stuck = true;
+    robot.blocked_by = shuttling.others;
+  }
+}
+
 /// The parts of the memory of a plan that are large.
 struct PlanMemory {
   PlanMemory(const Problem& problem, const PlanOptions& options, const StopCondition& stop)
@@ -322,6 +331,7 @@ Plan plan(const Problem& problem, const PlanOptions& options, const StopConditio
   }
 
   Plan plan = with_stuck_explained(state, current_plan(lns), briefly(stop));
+  if (prioritized.shuttling) name_shuttling(plan, *prioritized.shuttling);
   progress.plan_found(plan.objectives);
   const bool may_plan_more = !plan.unplanned.empty() && (prioritized.cut_off || prioritized.is_limited);
   plan.search.exhausted = !may_plan_more && (anytime ? lns.exhausted : !plan.unplanned.empty());
