@@ -9,7 +9,7 @@ namespace {
 
 /// How many times as much the way that is left counts as the way so far.
 constexpr float kGreedWithTimes = 4.0F;
-/// Moves between two checks of the stop condition.
+/// Moves between two checks of the stop condition, where queries are quick.
 constexpr std::size_t kMovesBetweenPolls = 16;
 /// Nodes with the same places and intervals, none of which is in every respect as early as another one.
 constexpr std::size_t kMaxAlike = 8;
@@ -33,7 +33,7 @@ TimedStepSearch::TimedStepSearch(FleetReservations& reservations, const std::vec
 TimedStepSearch::Outcome TimedStepSearch::run(std::size_t max_nodes, const StopCondition& stop) {
   const IgnoredRobots ignored(reservations_, robots_);
   if (!std::exchange(has_begun_, true) && !begin()) return Outcome::none;
-  StopStride stride(stop, kMovesBetweenPolls);
+  StopStride stride(stop, reservations_.table().is_costly() ? 1 : kMovesBetweenPolls);
   while (!open_.empty()) {
     if (nodes_.size() >= max_nodes) return Outcome::cut_off;
     const std::uint32_t number = open_.top().second;
@@ -139,7 +139,7 @@ void TimedStepSearch::add(const Node& node, std::size_t k, int place, const Step
   }
   const std::uint32_t tuple = known_.add(tuple_);
   if (tuple == first_of_tuple_.size()) first_of_tuple_.push_back(kNone);
-  if (!is_early(number, first_of_tuple_[tuple])) {
+  if (!is_early(number, tuple)) {
     nodes_.pop_back();
     rests_.resize(rests_.size() - steps_.size());
     return;
@@ -153,20 +153,24 @@ void TimedStepSearch::add(const Node& node, std::size_t k, int place, const Step
   open_.emplace(node.way + kGreedWithTimes * left, number);
 }
 
-/// Whether no node of a list with the same places and intervals is as early as this one. Those that it makes
-/// useless are not expanded.
-bool TimedStepSearch::is_early(std::uint32_t number, std::uint32_t first) {
+/// Whether no node with the same places and intervals is as early as this one. Those that it makes useless
+/// are forgotten.
+bool TimedStepSearch::is_early(std::uint32_t number, std::uint32_t tuple) {
   std::size_t alike = 0;
-  bool is_better = false;
+  std::uint32_t* link = &first_of_tuple_[tuple];
   // Bounded: few nodes are alike.
-  for (std::uint32_t other = first; other != kNone; other = nodes_[other].other) {
-    if (is_no_later(other, number)) return false;
-    ++alike;
-    if (nodes_[other].is_closed || !is_no_later(number, other)) continue;
-    nodes_[other].is_closed = true;
-    is_better = true;
+  while (*link != kNone) {
+    Node& other = nodes_[*link];
+    if (is_no_later(*link, number)) return false;
+    if (is_no_later(number, *link)) {
+      other.is_closed = true;
+      *link = other.other;
+    } else {
+      ++alike;
+      link = &other.other;
+    }
   }
-  return is_better || alike < kMaxAlike;
+  return alike < kMaxAlike;
 }
 
 /// Whether all that can follow on one node can follow on another one, which has the same places and

@@ -56,7 +56,7 @@ class TimedStepSearch {
   bool expand(std::uint32_t number, StopStride& stride);
   void move(std::uint32_t number, std::size_t k, const StepPlaces::Step& step);
   void add(const Node& node, std::size_t k, int place, const StepRest& rest);
-  bool is_early(std::uint32_t number, std::uint32_t first);
+  bool is_early(std::uint32_t number, std::uint32_t tuple);
   bool is_no_later(std::uint32_t a, std::uint32_t b) const;
   bool is_ready(std::size_t k, int place, const StepRest& a, const StepRest& b) const;
   int number_of(std::size_t k, int place, double end);
