@@ -20,8 +20,8 @@ constexpr std::array kPlaceSpacings{1.0, 0.5, 0.25, 0.0};
 constexpr std::array<std::size_t, 3> kMaxConfigurations{3'000, 30'000, 300'000};
 /// For more robots than a few, of all rounds.
 constexpr std::size_t kMaxConfigurationsOfMany = 30'000;
-/// The robots in all nodes of a search with times: 50 MB.
-constexpr std::size_t kMaxRestsWithTimes = 600'000;
+/// The robots in all nodes of a search with times: 15 MB.
+constexpr std::size_t kMaxRestsWithTimes = 300'000;
 /// The most robots that are moved one at a time at first: for more of them, there are too many
 /// configurations.
 constexpr std::size_t kFewOnPlaces = 6;

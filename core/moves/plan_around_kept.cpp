@@ -163,6 +163,7 @@ class PlanningAroundKept {
     result_.attempts += anew.attempts;
     result_.cut_off = result_.cut_off || anew.cut_off;
     result_.is_limited = anew.is_limited;
+    result_.shuttling = anew.shuttling;
     SafePlan plan;
     for (const Unplanned& robot : anew.unplanned) {
       plan.staying.push_back({robot.robot, robot.reason == Unplanned::Reason::blocked_by_robots});

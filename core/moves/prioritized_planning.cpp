@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <new>
 #include <optional>
 #include <utility>
 
@@ -239,11 +240,17 @@ class PrioritizedPlanning {
     result_.shuttling = std::move(shuttling);
   }
 
+  /// Whether steps of these two lead nowhere, even if the others are absent.
   bool cannot_both_arrive(std::size_t robot, std::size_t other) {
     const IgnoredRobots others(state_.reservations(), order_);
-    PlaceSteps steps(state_.reservations(), {robot, other}, random_);
-    steps.run(stop_);
-    return steps.has_no_way();
+    try {
+      PlaceSteps steps(state_.reservations(), {robot, other}, random_);
+      steps.run(stop_);
+      result_.cut_off = result_.cut_off || stop_.met();
+      return steps.has_no_way();
+    } catch (const std::bad_alloc&) {  // not granted to the job
+      return false;
+    }
   }
 
   /// Steps cost more than it takes: they let one robot move at a time, and only from vertex to vertex.
