@@ -49,13 +49,15 @@ std::optional<std::vector<Trajectory>> PlaceSteps::run(const StopCondition& stop
   if (robots_.size() > kMaxRobots) return std::nullopt;
   // Bounded: a few rounds over a few levels.
   for (const std::size_t max_configurations : kMaxConfigurations) {
-    for (std::size_t number = 0; number < kPlaceSpacings.size(); ++number) {
-      if (stop.met()) return std::nullopt;
-      Level* const level = this->level(number, stop);
-      if (level == nullptr || level->is_done) continue;
-      auto trajectories = level->timed ? search_with_times(*level, max_configurations, stop)
+    for (const bool with_times : {false, true}) {
+      for (std::size_t number = 0; number < kPlaceSpacings.size(); ++number) {
+        if (stop.met()) return std::nullopt;
+        Level* const level = this->level(number, stop);
+        if (level == nullptr || level->is_done || level->timed.has_value() != with_times) continue;
+        auto trajectories = with_times ? search_with_times(*level, max_configurations, stop)
                                        : search(*level, number, max_configurations, stop);
-      if (trajectories) return trajectories;
+        if (trajectories) return trajectories;
+      }
     }
   }
   return std::nullopt;
@@ -94,7 +96,7 @@ std::optional<std::vector<Trajectory>> PlaceSteps::search(Level& level, std::siz
   auto trajectories = times_of_steps(reservations_, robots_, level.steps, sequence, stop);
   if (trajectories || stop.met()) return trajectories;
   level.timed.emplace(reservations_, robots_, level.steps);
-  trajectories = search_with_times(level, max_configurations, stop);
+  trajectories = search_with_times(level, kMaxConfigurations.front(), stop);
   if (trajectories || stop.met()) return trajectories;
   sequence.earliest = rest_of_others(reservations_, robots_);
   if (sequence.earliest == 0.0) return std::nullopt;
