@@ -5,8 +5,6 @@
 namespace fleetplan::core {
 namespace {
 
-/// How many times as much the way that is left counts as the way so far.
-constexpr float kGreed = 4.0F;
 /// Configurations between two checks of the stop condition.
 constexpr std::size_t kConfigurationsBetweenPolls = 64;
 

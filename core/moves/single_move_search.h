@@ -20,6 +20,9 @@ namespace fleetplan::core {
 /// room, it can visit all of them.
 class SingleMoveSearch {
  public:
+  /// How many times as much the way that is left counts as the way so far.
+  static constexpr float kGreed = 4.0F;
+
   /// `steps` outlive this object.
   explicit SingleMoveSearch(const JointSteps& steps);
 

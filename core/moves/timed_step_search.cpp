@@ -7,8 +7,6 @@
 namespace fleetplan::core {
 namespace {
 
-/// How many times as much the way that is left counts as the way so far.
-constexpr float kGreedWithTimes = 4.0F;
 /// Moves between two checks of the stop condition, where queries are quick.
 constexpr std::size_t kMovesBetweenPolls = 16;
 /// Nodes with the same places and intervals, none of which is in every respect as early as another one.
@@ -150,7 +148,7 @@ void TimedStepSearch::add(const Node& node, std::size_t k, int place, const Step
   for (std::size_t robot = 0; robot < steps_.size(); ++robot) {
     left += steps_.robot(robot).at(tuple_[robot]).to_go;
   }
-  open_.emplace(node.way + kGreedWithTimes * left, number);
+  open_.emplace(node.way + SingleMoveSearch::kGreed * left, number);
 }
 
 /// Whether no node with the same places and intervals is as early as this one. Those that it makes useless

@@ -50,23 +50,24 @@ struct Hopping {
   }
 };
 
+bool is_free(const support::Maze& maze, int cell) {
+  const int row = support::kMazeHeight - 1 - cell / support::kMazeWidth;
+  return maze.rows[static_cast<std::size_t>(row)][static_cast<std::size_t>(cell % support::kMazeWidth)] ==
+         '.';
+}
+
 Hopping random_hops(support::Dice& dice, const support::Maze& maze) {
-  const auto is_free = [&](int cell) {
-    const int row = support::kMazeHeight - 1 - cell / support::kMazeWidth;
-    return maze.rows[static_cast<std::size_t>(row)][static_cast<std::size_t>(cell % support::kMazeWidth)] ==
-           '.';
-  };
   Cells free;
   for (int cell = 0; cell < support::kMazeWidth * support::kMazeHeight; ++cell) {
     const bool is_start = std::find(maze.starts.begin(), maze.starts.end(), cell) != maze.starts.end();
-    if (is_free(cell) && !is_start) free.push_back(cell);
+    if (is_free(maze, cell) && !is_start) free.push_back(cell);
   }
   Hopping hopping;
   hopping.cells.push_back(free[static_cast<std::size_t>(dice.below(static_cast<int>(free.size())))]);
   for (int phase = 0; phase < kPhases; ++phase) {
     const Cells around = support::cells_beside(hopping.cells.back());
     const int next = around[static_cast<std::size_t>(dice.below(static_cast<int>(around.size())))];
-    hopping.cells.push_back(is_free(next) ? next : hopping.cells.back());
+    hopping.cells.push_back(is_free(maze, next) ? next : hopping.cells.back());
   }
   return hopping;
 }
@@ -74,16 +75,11 @@ Hopping random_hops(support::Dice& dice, const support::Maze& maze) {
 /// Whether moves of one robot at a time, at most one in each phase, lead to the goals, and touch neither the
 /// obstacle nor where it goes in that phase. Written for itself.
 bool can_arrive(const support::Maze& maze, const Hopping& hopping) {
-  const auto is_free = [&](int cell) {
-    const int row = support::kMazeHeight - 1 - cell / support::kMazeWidth;
-    return maze.rows[static_cast<std::size_t>(row)][static_cast<std::size_t>(cell % support::kMazeWidth)] ==
-           '.';
-  };
   const auto after_a_move = [&](const Cells& at) {
     std::vector<Cells> all;
     for (std::size_t k = 0; k < at.size(); ++k) {
       for (const int to : support::cells_beside(at[k])) {
-        if (!is_free(to) || std::find(at.begin(), at.end(), to) != at.end()) continue;
+        if (!is_free(maze, to) || std::find(at.begin(), at.end(), to) != at.end()) continue;
         all.push_back(at);
         all.back()[k] = to;
       }
