@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <iterator>
+#include <vector>
 
 #include "core/fleet/fleet_reservations.h"
 #include "core/model/plan.h"
@@ -41,6 +44,13 @@ class ProgressReport {
     all.tried += robots.tried;
     all.served += robots.served;
     all.could_not_serve += robots.could_not_serve;
+  }
+  /// Counts robots that were to be planned one after the other; those that follow a trajectory are served.
+  void count_by_priorities(const std::vector<std::size_t>& robots) {
+    const auto planned = std::count_if(robots.begin(), robots.end(), [&](std::size_t robot) {
+      return reservations_.trajectory(robot).has_value();
+    });
+    count(Method::priorities, {std::ssize(robots), planned, 0});
   }
   const std::array<MethodCounts, kMethods>& counts() const { return counts_; }
 

@@ -1,7 +1,6 @@
 #include "core/moves/plan_around_kept.h"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include "core/moves/fleet_steps.h"
@@ -95,10 +94,7 @@ class PlanningAroundKept {
       return keep_safe_plan(unsolved, given_up);
     };
     const OrderingResult ordering = repair_around(state_, order(), random_, stop_, progress_, keep_plan);
-    const auto planned = std::count_if(others_.begin(), others_.end(), [&](std::size_t robot) {
-      return reservations_.trajectory(robot).has_value();
-    });
-    progress_.count(Method::priorities, {std::ssize(others_), planned, 0});
+    progress_.count_by_priorities(others_);
     result_.attempts = ordering.attempts;
     result_.cut_off = ordering.cut_off || in_second_part_;
     if (ordering.unsolved.empty() && ordering.given_up.empty()) return true;

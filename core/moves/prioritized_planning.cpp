@@ -92,7 +92,7 @@ class PrioritizedPlanning {
 
   PrioritizedResult run() {
     OrderingResult ordering = plan_in_orders();
-    count_planned();
+    progress_.count_by_priorities(order_);
     result_.attempts += ordering.attempts;
     result_.cut_off =
         result_.cut_off || ordering.cut_off || best_.has_value() || ordering.steps == StepsOutcome::cut_off;
@@ -121,13 +121,6 @@ class PrioritizedPlanning {
   }
 
  private:
-  void count_planned() {
-    const auto planned = std::count_if(order_.begin(), order_.end(), [&](std::size_t robot) {
-      return state_.reservations().trajectory(robot).has_value();
-    });
-    progress_.count(Method::priorities, {std::ssize(order_), planned, 0});
-  }
-
   static bool solved(const OrderingResult& ordering) {
     return ordering.unsolved.empty() && ordering.given_up.empty();
   }
