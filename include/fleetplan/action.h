@@ -9,14 +9,15 @@
 
 namespace fleetplan {
 
-/// How the speed of a translation (metres per second) or a rotation (radians per second) changes: it rises at
-/// constant acceleration from `start` to `cruise`, stays, and falls at constant deceleration to `end`.
+/// The speed of a translation (metres per second) or a rotation (radians per second) over time. It rises from
+/// `start` to `cruise` at constant acceleration, stays at `cruise`, and falls to `end` at constant
+/// deceleration.
 struct Profile {
   double start = 0.0;   // >= 0, at t_start; positive backwards, too
   double cruise = 0.0;  // > 0, not less than start and end
   double end = 0.0;     // >= 0, at t_end
-  /// Per second squared: those of the robot. Infinite: at once. Of committed and previous actions, they need
-  /// not be given.
+  /// The robot's acceleration and deceleration, per second squared. Infinite: the speed changes at once.
+  /// Committed and previous actions may leave them out.
   double acceleration = std::numeric_limits<double>::infinity();
   double deceleration = std::numeric_limits<double>::infinity();
 };
@@ -34,17 +35,18 @@ struct Action {
   double t_end = 0.0;    // seconds, >= t_start
   Pose from;
   Pose to;
-  /// The goal of the robot that is served during this wait, or whose `not_before` is awaited; none for other
+  /// The goal that is served during this wait, or whose `not_before` the robot waits for. None for other
   /// waits and actions.
   std::optional<std::size_t> goal;
   /// Whether the robot translates backwards: the heading is opposite to the direction of motion.
   bool reverse = false;
-  /// The speed of a robot whose acceleration is limited; none: constant, as measured motion is.
+  /// How the speed changes, if the robot's acceleration is limited. None: constant speed, as in measured
+  /// motion.
   std::optional<Profile> profile = {};
 };
 
-/// Returns the pose at time `t` (seconds) of a robot that begins in `start` and executes contiguous actions:
-/// `start` before the first action, and the end of the last one after it. The time grows with the logarithm
+/// Returns the pose at time `t` (seconds) of a robot that begins in `start` and executes contiguous actions.
+/// Before the first action, this is `start`; after the last one, its end. The time grows with the logarithm
 /// of the number of actions.
 Pose pose_at(std::span<const Action> actions, const Pose& start, double t);
 

@@ -2,12 +2,13 @@
 
 /// Fleetplan as a library: collision-free, timed motions for fleets of differential-drive robots.
 ///
-/// This header includes all others but service.h, which is of a library of its own. Read them in this order:
+/// This header includes all others except service.h, which belongs to a separate library. Read them in this
+/// order:
 ///
-/// 1. pose.h, map.h, robot.h: where robots can be, what they are, and where they shall go.
+/// 1. pose.h, map.h, robot.h: the map, the robots and their goals.
 /// 2. action.h: what robots execute.
 /// 3. surroundings.h: moving obstacles and zones.
-/// 4. problem.h: all of these together, and what is wrong with them.
+/// 4. problem.h: all of these together, and the faults of a problem.
 /// 5. options.h: how to plan.
 /// 6. planner.h, plan.h: the call, and what it returns.
 /// 7. verify.h: the independent check of plans from any source.
@@ -17,12 +18,12 @@
 ///
 /// - Units are metres, seconds and radians, and their quotients for speeds. x points right and y up. Headings
 ///   are counter-clockwise from +x. Times begin with 0 at the start of the plan.
-/// - All types are values: copies share nothing. What has a default need not be set.
+/// - All types are values: copies share nothing. Members with a default need not be set.
 /// - Robots, goals, obstacles and zones are numbered from 0 in the order of their lists.
-/// - What is wrong with a problem is a list of faults (problem.h). Functions that cannot do without a valid
-///   problem throw it as InvalidProblem. std::bad_alloc passes through. Nothing else is thrown, unless a
-///   function says so.
-/// - Functions keep no state between calls and may be called from several threads at a time. They write no
+/// - faults_of() (problem.h) lists what is wrong with a problem. Functions that need a valid problem throw
+///   these faults as InvalidProblem. std::bad_alloc passes through. Nothing else is thrown, unless a function
+///   says so.
+/// - Functions keep no state between calls. Several threads may call them at the same time. They write no
 ///   output, and read neither files nor the environment.
 ///
 /// A program that plans:

@@ -11,7 +11,7 @@
 
 namespace fleetplan {
 
-/// The blocked and free cells of the plane. Cells are closed squares; column 0 is leftmost, row 0 at the
+/// The blocked and free cells of the plane. Cells are closed squares. Column 0 is leftmost, row 0 is at the
 /// bottom. Cell (c, r) covers [c, c+1] x [r, r+1] times the resolution, from the origin on. Everything
 /// outside the map is blocked.
 class Map {
@@ -21,15 +21,15 @@ class Map {
   /// a number is out of range (limits.h), or if the map has more than 1e9 cells.
   Map(int columns, int rows, double resolution, Position origin = {});
 
-  /// Draws the map from text, the top row first: `.` and `G` are free, `#`, `@`, `O`, `T` and `W` blocked.
-  /// All rows have the same length. Throws std::invalid_argument otherwise, and as the constructor does.
+  /// Makes a map from text, the top row first. `.` and `G` are free; `#`, `@`, `O`, `T` and `W` are blocked.
+  /// All rows must have the same length. Throws std::invalid_argument otherwise, and as the constructor does.
   static Map from_rows(std::span<const std::string_view> rows, double resolution, Position origin = {});
   static Map from_rows(std::initializer_list<std::string_view> rows, double resolution,
                        Position origin = {}) {
     return from_rows(std::span(rows.begin(), rows.size()), resolution, origin);
   }
 
-  /// Takes cells row by row from the bottom, as in an occupancy grid of ROS; others than 0 are blocked.
+  /// Takes cells row by row from the bottom, as in an occupancy grid of ROS. A cell is free if it is 0.
   /// Throws std::invalid_argument if their number is not `columns` x `rows`, and as the constructor does.
   static Map from_cells(std::span<const std::uint8_t> cells, int columns, int rows, double resolution,
                         Position origin = {});

@@ -6,8 +6,7 @@
 
 namespace fleetplan {
 
-/// How to plan. The defaults are those of the service, and so are the meanings: docs/plan_request.md,
-/// Options.
+/// How to plan. Options have the same defaults and meanings as in the service: docs/plan_request.md, Options.
 struct Options {
   enum class Mode {
     first,    // returns the first plan
@@ -31,7 +30,7 @@ struct Options {
     report,  // they are unplanned (Unplanned::Reason::invalid) and stand at their starts; others are planned
   };
 
-  /// The time for planning, > 0; the check of the plan may take a little longer. Robots that have no plan by
+  /// The time for planning, > 0. The check of the plan may take a little longer. Robots that have no plan by
   /// then are unplanned.
   std::chrono::nanoseconds time_budget = std::chrono::seconds(5);
   Mode mode = Mode::first;
@@ -41,35 +40,34 @@ struct Options {
   Priority priority = Priority::shortest_first;
   /// How the order changes when no plan is found for a robot.
   Reordering reordering = Reordering::raise_failed;
-  /// Seconds, >= 0, for which the starts of robots that are not planned yet are kept free. None: 3; if any
-  /// robot has committed actions or a previous plan, 0, or 1 with a horizon.
+  /// Seconds, >= 0: how long a start is kept free until its robot is planned. None: 3 seconds, unless any
+  /// robot has committed actions or a previous plan. With these, 0, or 1 with a horizon.
   std::optional<double> start_safe_interval = {};
   /// Metres, >= 0, added to every radius during planning: a margin for real robots.
   double inflation = 0.0;
-  /// Seconds, >= 0, that a robot stands still before every translation, already turned.
+  /// Seconds, >= 0: how long a robot stands still before every translation, already turned.
   double wait_before_move = 0.0;
-  /// Allows straight moves between any two cells in line of sight, not only between neighbours.
+  /// Allows straight moves between any two cells in line of sight. Otherwise, moves lead to neighbours only.
   bool any_angle = true;
-  /// Whether robots may stop between the points of the lattice where that makes paths shorter; with
-  /// `any_angle`, and without a horizon.
+  /// Lets robots stop off the lattice where that makes paths shorter. Requires `any_angle`, and no horizon.
   bool smoothing = true;
   int connectivity = 8;  // the number of neighbours of a cell: 4, 8, 16 or 32
   Replan replan = Replan::all;
-  /// Seconds, >= 0, by which any two robots may be early or late without a collision.
+  /// Seconds, >= 0: any two robots may be so much early or late without a collision.
   double interval_margin = 0.0;
-  /// Metres, >= 0, by which measured starts may overlap each other or a wall, inflation included.
+  /// Metres, >= 0: how far measured starts may overlap each other or a wall, inflation included.
   double start_overlap = 0.0;
-  /// Metres, >= 0, by which robots may overlap a wall at their last goals, inflation included, where they
-  /// stay, as in docks; and so where they start the next time.
+  /// Metres, >= 0: how far a robot may overlap a wall at its last goal, inflation included. This is for
+  /// docks, where robots stay. The next plan starts there, so starts may overlap a wall as far.
   double goal_overlap = 0.0;
-  /// Metres between the points at which robots may stop besides starts and goals. None: chosen by the map and
-  /// the robot's radius.
+  /// Metres between the points of the lattice. Robots may stop there, and at starts and goals. None: the
+  /// planner chooses it by the map and the robot's radius.
   std::optional<double> lattice_spacing = {};
-  /// Seconds up to which conflicts are resolved. A plan may stop there before its goal, where the robot may
-  /// rest for good; see RobotPlan::estimated_cost. None: whole ways are planned.
+  /// Seconds: conflicts are resolved up to this time. A plan may then stop before its goal, where the robot
+  /// may rest for good; see RobotPlan::estimated_cost. None: the whole way is planned.
   std::optional<double> horizon = {};
   InvalidRobots invalid_robots = InvalidRobots::refuse;
-  /// The number of steps by which `anytime` improves the plan; none: until the time budget ends.
+  /// The number of steps that improve the plan in mode `anytime`. None: until the time budget ends.
   std::optional<std::int64_t> max_iterations = {};
 };
 

@@ -20,7 +20,7 @@ struct Visit {
   std::optional<Position> place = {};      // where a goal with a tolerance is served
 };
 
-/// When a robot would come to a goal that its plan does not reach.
+/// When a robot would arrive at a goal that its plan does not reach.
 struct EstimatedVisit {
   std::size_t goal = 0;   // number of the goal in Robot::goals
   double t_arrive = 0.0;  // seconds; infinite if it has no way
@@ -35,19 +35,19 @@ struct RobotPlan {
   std::vector<Action> actions = {};
   double lower_bound = 0.0;        // seconds: no plan for the robot alone on the map costs less
   std::vector<Visit> visits = {};  // one for each goal, in their order
-  /// Seconds, if the plan stops at the horizon: `cost` and an estimate of the way that is left; infinite if
-  /// robots that stay where they are leave the robot no way.
+  /// Seconds, if the plan stops at the horizon: `cost` and an estimate of the way that is left. Infinite if
+  /// robots that stay where they are leave no way.
   std::optional<double> estimated_cost = {};
   /// If the plan stops at the horizon: one for each goal that is left, in their order.
   std::vector<EstimatedVisit> estimated_visits = {};
-  /// Whether the plan stops at the horizon, and the robot gains nothing on the way to its goals until then.
+  /// Whether the plan stops at the horizon, and brings the robot no nearer to its goals.
   bool stuck = false;
   std::vector<std::size_t> blocked_by =
       {};  // if it is stuck: the robots in its way, as far as they are known
 };
 
-/// A robot without a plan. It executes its committed actions and stays at their end, or stays at its start;
-/// the plans of other robots keep clear of it.
+/// A robot without a plan. It executes its committed actions, if it has any, and stays at their end or at its
+/// start. The plans of other robots keep clear of it.
 struct Unplanned {
   enum class Reason {
     start_blocked,         // it cannot leave its start
@@ -65,8 +65,8 @@ struct Unplanned {
   std::vector<Fault> faults = {};            // of an invalid robot
 };
 
-/// An unavoidable collision, which no plan prevents: a robot cannot leave its place in time before the
-/// committed motion of another robot, or an obstacle, passes there.
+/// A collision that no plan prevents. For example, a robot cannot leave its place before the committed motion
+/// of another robot passes there. An obstacle can pass there, too.
 struct UnavoidableCollision {
   std::size_t robot = 0;
   std::optional<std::size_t> other = {};     // another robot, or
@@ -80,11 +80,11 @@ struct Objectives {
   double makespan = 0.0;
 };
 
-/// How many robots a method of the planner was to plan; each time counts.
+/// How many robots a method of the planner tried to plan. A robot counts each time.
 struct MethodCounts {
   std::int64_t tried = 0;
-  std::int64_t served = 0;           // have a plan of it, or one that it may change
-  std::int64_t could_not_serve = 0;  // for what they or the options ask for, it is not made
+  std::int64_t served = 0;           // robots with a plan of this method, or with a plan that it may change
+  std::int64_t could_not_serve = 0;  // robots that it does not support, for what they or the options ask for
 };
 
 /// What the search did.
@@ -93,8 +93,13 @@ struct SearchStatistics {
   std::int64_t expansions = 0;    // search labels expanded
   std::int64_t improvements = 0;  // found in mode `anytime`
   bool exhausted = false;         // more time would change nothing
-  // The methods: one robot after the other, all at once in steps, with room for two where they meet, paths
-  // without the lattice, other plans of a few robots.
+  // The methods, in this order:
+  //
+  // - priorities: one robot after the other.
+  // - steps: all robots at once, step by step.
+  // - room: two robots that meet get room to pass each other.
+  // - smoothing: paths leave the lattice.
+  // - improvement: a few robots at a time get other plans.
   MethodCounts priorities, steps, room, smoothing, improvement;
   double seconds = 0.0;  // planning, without reading the problem and without the check
 };
@@ -112,15 +117,15 @@ struct Plan {
   std::vector<Unplanned> unplanned = {};
   std::vector<UnavoidableCollision> unavoidable = {};  // by time
   Objectives objectives;
-  /// The value of Options::objective, seconds; by the estimates where plans stop at the horizon.
+  /// The value of Options::objective, seconds. Plans that stop at the horizon count with their estimates.
   double objective_value = 0.0;
   Objectives lower_bound;  // objectives of the planned robots' lower bounds
-  /// Whether the independent checker (verify.h) has found no violation. If the time does not suffice, robots
-  /// that would move stay; false only if not even that could be checked. A plan that it rejects is never
-  /// returned, see plan().
+  /// Whether the independent checker (verify.h) has found no violation. If the time does not suffice, all
+  /// robots that would move stay where they are. False only if not even this could be checked. A plan that
+  /// the checker rejects is never returned, see plan().
   bool verified = false;
-  /// Metres: the smallest gap between two disks over all time; none for fewer than two robots, or unless
-  /// verified.
+  /// Metres: the smallest gap between two disks over all time. None for fewer than two robots, or if the plan
+  /// is not verified.
   std::optional<double> min_clearance = {};
   /// Whether the plan depends only on the problem, the options and the build. False if the clock influenced
   /// it.

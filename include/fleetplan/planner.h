@@ -19,18 +19,18 @@ struct Progress {
   std::optional<Objectives> best = {};  // objectives of the present plan; none before the first
 };
 
-/// The connection of a running call to its caller.
+/// How the caller stops and observes a call that is running.
 struct Control {
-  /// When a stop is requested, planning ends within milliseconds and returns what it has, as at the end of
-  /// the time budget. May be requested by any thread.
+  /// When a stop is requested, planning ends within milliseconds. It returns what it has, as at the end of
+  /// the time budget. Any thread may request the stop.
   std::stop_token stop = {};
   /// Called in the thread that called plan(), possibly thousands of times a second. Its time counts against
   /// the time budget. It may throw, which ends planning; plan() passes the exception on.
   std::function<void(const Progress&)> progress = {};
 };
 
-/// Plans collision-free timed motions for all robots of the problem, or for as many as it can within the time
-/// budget, and checks the plan in continuous time. The computation takes place in the calling thread.
+/// Plans collision-free timed motions for all robots of the problem, or for as many as possible within the
+/// time budget. Checks the plan in continuous time. The computation takes place in the calling thread.
 ///
 /// Planning is prioritized, so it is neither complete nor optimal: a solvable problem may return
 /// Plan::Status::partial, and costs may exceed the optimum. Each plan comes with a lower bound of its cost.

@@ -25,36 +25,40 @@ struct Goal {
   std::optional<double> theta = {};  // radians; none: any heading
   double service = 0.0;              // seconds, >= 0, at rest in the pose
   double not_before = 0.0;           // seconds, >= 0: the service begins at this time at the earliest
-  /// Metres: the radius of the robot from the end of the service on; none: as before.
+  /// Metres: the robot's radius after the service. None: the radius stays the same.
   std::optional<double> radius_after = {};
-  /// Seconds by which the robot should arrive, not before `not_before`; see Options::Objective. Negative: the
-  /// past. None: it is never late.
+  /// Seconds: when the robot should arrive at the latest; see Options::Objective. `not_before` must not be
+  /// later. A negative time is in the past. None: it is never late.
   std::optional<double> due = {};
-  /// How the robot drives from the end of the service on, metres per second (squared); none: as before.
-  /// Accelerations are for robots that have one; a deceleration that is not given follows the acceleration.
+  /// How the robot drives after the service, metres per second (squared). None: as before. Accelerations are
+  /// only for robots whose acceleration is limited. A deceleration that is not given equals the acceleration.
   std::optional<double> linear_speed_after = {};
   std::optional<double> linear_acceleration_after = {};
   std::optional<double> linear_deceleration_after = {};
-  /// From 2 to 100 poses, at one of which the goal is served, instead of `x`, `y` and `theta`: which one is
-  /// chosen before the ways are planned, by when robots would arrive (docs/plan_request.md); Visit::choice
-  /// tells it. Robots that stay at their last goals get poses at which they do not overlap. Empty: none.
+  /// From 2 to 100 poses, given instead of `x`, `y` and `theta`. The robot serves the goal at one of them.
+  /// Empty: the goal has one pose.
+  ///
+  /// The planner chooses the pose before it plans the ways, by when robots would arrive
+  /// (docs/plan_request.md). Visit::choice tells the chosen pose. Robots that stay at their last goals get
+  /// poses at which they do not overlap.
   std::vector<Alternative> any_of = {};
-  /// The number in `any_of` of the only pose at which `committed` and `previous` serve the goal; none: that
-  /// in which they rest first. It does not bind the plan.
+  /// The number in `any_of` of the only pose at which `committed` and `previous` serve the goal. None: the
+  /// pose in which they rest first. It does not bind the plan.
   std::optional<std::size_t> choice = {};
-  /// Metres, 0 to 1: where the pose has no room or no way, the goal is served at a place so near to it, with
-  /// the same heading; Visit::place tells where. Not together with `any_of`.
+  /// Metres, 0 to 1. If the pose has no room or no way leads there, the goal is served at a place within this
+  /// distance, with the same heading. Visit::place tells the place. Not together with `any_of`.
   double tolerance = 0.0;
-  /// With a tolerance: the place at which `committed` and `previous` serve the goal; none: its own.
+  /// With a tolerance: the place at which `committed` and `previous` serve the goal. None: the goal's own
+  /// pose.
   std::optional<Position> place = {};
 };
 
 /// A differential-drive robot: an open disk that waits, rotates in place or translates straight ahead (or
-/// back, see `may_reverse`). Its speed changes at once, unless acceleration is limited; then every
-/// translation and rotation begins and ends at rest. Touching is allowed, overlapping is not. limits.h has
-/// the ranges.
+/// back, see `may_reverse`). Its speed changes at once, unless its acceleration is limited; then every
+/// translation and rotation begins and ends at rest. Robots may touch, but not overlap. limits.h has the
+/// ranges.
 struct Robot {
-  /// What it does without goals, and once it has served its last one.
+  /// What the robot does without goals, and after its last goal.
   enum class Idle {
     stay,       // stays where it is; others keep clear of it
     yield,      // makes way if another robot needs the place, and ends anywhere
@@ -69,23 +73,24 @@ struct Robot {
   std::vector<Goal> goals;     // visited in this order
   Idle idle = Idle::stay;
 
-  /// The actions that the robot executes whatever is planned: contiguous from t = 0 in `start`, none faster
-  /// than the robot, and the last one to rest. The plan begins with these actions. Gaps of up to 5e-7 are
-  /// closed.
+  /// The actions that the robot executes whatever is planned. They are contiguous from t = 0 in `start`, no
+  /// faster than the robot, and the last one ends at rest. The plan begins with these actions. Gaps of up to
+  /// 5e-7 are closed.
   std::vector<Action> committed;
   /// The actions of an earlier plan, also from t = 0 in `start`, the committed ones included. The planner
-  /// keeps them or begins with them, see Options::replan.
+  /// keeps them, or begins its search with them, see Options::replan.
   std::optional<std::vector<Action>> previous;
 
   bool may_reverse = false;  // it may translate backwards
   double vicinity = 0.0;     // metres, >= 0: added to its radius against other robots only
-  /// Seconds, >= 0, for which its next goal could have been served already: with a horizon, robots whose
-  /// goals are older are planned first.
+  /// Seconds, >= 0: how long the next goal has been waiting. With a horizon, robots whose goals have waited
+  /// longest are planned first.
   double goal_age = 0.0;
   double weight = 1.0;  // > 0: its cost and its delays count so many times in the objective
 
-  /// Metres per second squared, > 0: how fast the speed of a translation rises and falls; radians per second
-  /// squared, of rotations both ways. None: no limit; of the deceleration: that of the acceleration.
+  /// How fast speeds rise and fall, > 0: metres per second squared for translations, radians per second
+  /// squared for rotations both ways. None: no limit. A deceleration that is not given equals the
+  /// acceleration.
   std::optional<double> linear_acceleration = {};
   std::optional<double> linear_deceleration = {};
   std::optional<double> angular_acceleration = {};

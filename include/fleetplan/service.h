@@ -1,7 +1,7 @@
 #pragma once
 
-// What the HTTP service answers, in the process of the program: JSON in, JSON out. It is in a library of its
-// own, fleetplan::service, which needs libpng; fleetplan.h does not include this header.
+// Answers requests of the HTTP service inside the program: JSON in, JSON out. This header belongs to a
+// separate library, fleetplan::service, which needs libpng. fleetplan.h does not include it.
 
 #include <fleetplan/planner.h>
 
@@ -13,7 +13,7 @@
 
 namespace fleetplan {
 
-/// The requests that are answered. docs/api.md has the bodies of each, and its answers.
+/// The requests that can be answered. docs/api.md describes the body and the answers of each.
 enum class Endpoint {
   plan,            // POST /v1/plan
   validate,        // POST /v1/validate
@@ -27,11 +27,12 @@ enum class Endpoint {
   import_vda5050,  // POST /v1/import/vda5050
 };
 
-/// What a single request may ask for. The defaults are those of the service, and so are the names: they are
-/// those of GET /v1/limits, by which the details of errors call them.
+/// What a single request may ask for. The defaults equal the service's. The names are those in GET
+/// /v1/limits, and details of errors use them.
 struct ServiceLimits {
-  /// The budget of a request that names none; and of any: a longer one is clamped, with a warning in the
-  /// answer. Both at most a day, and at least 1 ms; the default is at most the maximum.
+  /// The budget of a request that names none, and the largest budget of any request. A longer budget is
+  /// clamped, with a warning in the answer. Both are from 1 ms to a day, and the default is at most the
+  /// maximum.
   std::chrono::milliseconds default_budget{5000};
   std::chrono::milliseconds max_budget{120'000};
   std::size_t max_body = 32u << 20;     // bytes
@@ -44,15 +45,16 @@ struct ServiceLimits {
   std::size_t max_obstacle_entries = 400'000;
   std::size_t max_zones = 1000;
   std::size_t max_zone_corners = 20'000;
-  /// Bytes. Only what is known in advance is held to it: the figures that a simulation keeps of its runs.
-  /// What a call allocates is not counted, unlike in the service.
+  /// Bytes. The limit holds only for memory that is known in advance: the figures that a simulation keeps of
+  /// its runs. Unlike in the service, memory that a call allocates is not counted.
   std::size_t max_plan_memory = 256u << 20;
 };
 
-/// What a program may say about a call, beside the body.
+/// What a program may add to a call, beside the body.
 struct ServiceOptions {
   ServiceLimits limits = {};
-  /// `request_id` of plans, simulations and errors, to find them again, for example in the program's log.
+  /// The `request_id` in plans, simulations and errors. It helps to find them again, for example in the
+  /// program's log.
   std::string request_id = {};
 };
 
@@ -67,13 +69,14 @@ struct Answer {
 /// Answers a request exactly as the service does, with the same limits, checks and errors. `body` is JSON in
 /// UTF-8. The time budget counts from the call.
 ///
-/// - What is wrong with the body is an answer: status 400 with line and column where it is not JSON, 422 with
-///   `errors`, whose `pointer` names the place.
-/// - When a stop is requested, the call ends within milliseconds. A plan is answered as at the end of its
-///   budget, if some has been made. Where nothing can be answered, the status is 503 and the code `draining`.
+/// - A faulty body gets an answer, too. The status is 400, with line and column, if the body is not JSON.
+///   Otherwise, the status is 422, with `errors`; each has a `pointer` to the place.
+/// - When a stop is requested, the call ends within milliseconds. A plan that has been made by then is
+///   returned, as at the end of its budget. If there is nothing to answer, the status is 503 and the code
+///   `draining`.
 /// - `control.progress` is called for Endpoint::plan. It may throw, which ends planning; answer() passes the
 ///   exception on.
-/// - Memory is not bounded. If the process has none left, the answer has the status 503 and the code
+/// - Memory is not bounded. If the process has no memory left, the answer has the status 503 and the code
 ///   `overloaded`.
 ///
 /// Throws std::invalid_argument for limits that are out of range and for an endpoint that does not exist.

@@ -9,9 +9,9 @@
 
 namespace fleetplan {
 
-/// A disk that nobody here controls: a person, a robot of another fleet. It is absent before the first entry,
-/// moves straight at constant speed from entry to entry, and then leaves or stays. It may cross walls, the
-/// edge of the map and other obstacles.
+/// A disk that the planner does not control, for example a person or a robot of another fleet. It is absent
+/// before the first entry, moves straight at constant speed from entry to entry, and then leaves or stays. It
+/// may cross walls, the edge of the map and other obstacles.
 struct MovingObstacle {
   struct Entry {
     double t = 0.0;  // seconds, >= 0, strictly ascending
@@ -34,10 +34,10 @@ struct Zone {
 
   std::string id;  // for your own use
   Type type = Type::blocked;
-  /// The corners of a simple polygon, three at least, in either order. Its border belongs to a blocked zone,
-  /// not to the others. Sides that cross are not detected; which points are inside is then undefined.
+  /// The corners of a simple polygon, at least three, in either order. The border belongs to a blocked zone,
+  /// but not to other zones. Sides that cross are not detected: it is then undefined which points are inside.
   std::vector<Position> polygon;
-  /// The limits of a zone of the type `speed`; none: no limit of this speed.
+  /// The limits of a zone of the type `speed`. None: the zone does not limit this speed.
   std::optional<double> linear_speed;   // metres per second
   std::optional<double> angular_speed;  // radians per second
   double heading = 0.0;                 // for `one_way`: radians

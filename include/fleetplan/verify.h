@@ -14,7 +14,7 @@
 
 namespace fleetplan {
 
-/// A violation of the rules by a plan. `distance` is what was measured and `required` the limit or the
+/// A violation of the rules by a plan. `distance` is the measured value. `required` is the limit or the
 /// required value, in the unit that the kind names. All numbers are finite.
 struct Violation {
   enum class Kind {
@@ -41,7 +41,8 @@ struct Violation {
   std::optional<std::size_t> zone = {};      // zone: number of the zone
 };
 
-/// The rules by which plans are checked, besides those that hold for all. The default is the plainest check.
+/// The options of the check. Rules that hold for every plan need no option. The default is the simplest
+/// check.
 struct Rules {
   /// How far plans may deviate, >= 0, in metres, seconds and radians. 1e-6 allows for decimal text.
   double tolerance = 1e-6;
@@ -70,20 +71,29 @@ struct Verification {
   bool valid() const { return finished && violation_count == 0; }
 };
 
-/// Checks plans from any source, at most one for each robot and in any order: robots against robots, moving
-/// obstacles, walls, zones and the edge of the map, continuity, speeds, starts, visits, goals and
-/// commitments. A robot without a plan executes its committed actions and stays at their end. The check is
-/// exact in continuous time up to rounding, and shares no collision test with the search. The lower bounds,
-/// visits and estimates of plans need not be given.
+/// Checks plans from any source, at most one for each robot and in any order. The check covers
 ///
-/// The problem need not be valid as a whole: overlapping starts are violations at t = 0. But its numbers have
-/// to be in their ranges, and lists as their types describe; throws InvalidProblem otherwise. Throws
-/// std::invalid_argument if a plan belongs to no robot, two belong to the same one, a visit names a pose that
-/// its goal does not have, or an invalid robot does not exist.
+/// - collisions of robots with robots, moving obstacles, walls and the edge of the map,
+/// - the rules of zones,
+/// - continuity and speeds,
+/// - starts, visits, goals and commitments.
+///
+/// A robot without a plan executes its committed actions and stays at their end. The check is exact in
+/// continuous time up to rounding. It shares no collision test with the search. Plans may leave out lower
+/// bounds, visits and estimates.
+///
+/// The problem need not be valid as a whole: overlapping starts are violations at t = 0. But its numbers must
+/// be in their ranges, and its lists as their types describe. Throws InvalidProblem otherwise. Throws
+/// std::invalid_argument if
+///
+/// - a plan belongs to no robot,
+/// - two plans belong to the same robot,
+/// - a visit names a pose that its goal does not have,
+/// - or an invalid robot does not exist.
 Verification verify(const Problem& problem, std::span<const RobotPlan> plans, const Rules& rules = {});
 
-/// Checks a plan of plan() for the same problem and options: by the rules that follow from the options, with
-/// its unavoidable collisions allowed.
+/// Checks a plan of plan() for the same problem and options. The rules follow from the options, and the
+/// plan's unavoidable collisions are allowed.
 Verification verify(const Problem& problem, const Plan& plan, const Options& options = {});
 
 }  // namespace fleetplan
