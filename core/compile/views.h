@@ -1,6 +1,6 @@
 #pragma once
 
-// What a robot is on the way to each of its goals, with the load that it has then, and where it may be.
+// What a robot is on the way to each of its goals, with its load at that time, and where it may be.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,26 +19,27 @@
 
 namespace fleetplan::core {
 
-/// A robot with one of its loads, and where it may be and move with that.
+/// A robot with one of its loads, and where it may be and move with this load.
 struct View {
   Body body;
   std::shared_ptr<FreeSpace> free_space;    // never null; of all robots for which it is the same
-  std::shared_ptr<const DriveZones> zones;  // those that limit how the robot drives; null if there are none
+  std::shared_ptr<const DriveZones> zones;  // the zones that limit how the robot drives; null if there are
+                                            // none
 
-  /// Whether walls and zones leave the straight move free.
+  /// Whether walls and zones allow the straight move.
   bool allows(const Position& from, const Position& to) const {
     return free_space->may_sweep(from, to, body.wall_radius) && (zones == nullptr || zones->allow(from, to));
   }
 };
 
-/// The views of a robot by stage. A stage is the way to a goal that is left, by the goal's position in
-/// Itinerary::goals; or, one past the last goal, the rest there for good.
+/// The views of a robot by stage. A stage is the way to a goal that is left; its number is the goal's
+/// position in Itinerary::goals. One more stage follows: the rest at the last goal for good.
 class Views {
  public:
-  /// The same one in all stages. `largest_disk`: at any time, commitments included.
+  /// The same view in all stages. `largest_disk`: at any time, commitments included.
   Views(View view, const LargestDisk& largest_disk) : views_{std::move(view)}, largest_disk_(largest_disk) {}
-  /// `views`, which differ, are numbered in the order in which the stages use them first. `of_stages`: the
-  /// number of each stage's.
+  /// `views` are different, in the order in which the stages first use them. `of_stages`: for each stage, the
+  /// number of its view.
   Views(std::vector<View> views, std::vector<std::uint32_t> of_stages, const LargestDisk& largest_disk)
       : views_(std::move(views)), of_stages_(std::move(of_stages)), largest_disk_(largest_disk) {}
 
@@ -54,7 +55,7 @@ class Views {
   const LargestDisk& largest_disk() const { return largest_disk_; }
   /// The body with the smallest radius.
   const Body& slimmest_body() const;
-  /// No plan of the robot takes so long, seconds.
+  /// An upper bound of how long the robot's plans take, seconds.
   double longest_plan() const;
 
  private:
@@ -64,7 +65,7 @@ class Views {
 };
 
 /// Returns the views of all robots. `itineraries` and `lattices` are by robot. The problem and the lattices
-/// outlive the result.
+/// must outlive the result.
 std::vector<Views> views_of_robots(const Problem& problem, const PlanOptions& options,
                                    const std::vector<Itinerary>& itineraries,
                                    const std::vector<std::shared_ptr<const Lattice>>& lattices,

@@ -9,8 +9,8 @@
 
 namespace fleetplan::core {
 
-/// One rotation, translation or wait of a robot, from one pose to another, at constant speed or with a
-/// profile. Times in seconds from the start of the plan.
+/// One rotation, translation or wait of a robot, from one pose to another. The speed is constant or follows a
+/// profile. Times are in seconds from the start of the plan.
 struct Action {
   enum class Type { rotate, translate, wait };
   Type type = Type::wait;
@@ -18,12 +18,13 @@ struct Action {
   double t_end = 0.0;
   Pose from;
   Pose to;
-  /// The goal of the robot (see Robot::goal_at) that is served during this wait, or whose `not_before` is
-  /// awaited; nullopt for other waits and actions.
+  /// The goal (see Robot::goal_at) that is served during this wait, or whose `not_before` the robot waits
+  /// for. nullopt for other waits and actions.
   std::optional<std::size_t> goal = {};
   /// Whether the robot translates backwards: the heading is opposite to the direction of motion.
   bool reverse = false;
-  /// The speed of a robot whose acceleration is limited, forwards and backwards > 0; nullopt: constant.
+  /// How the speed changes, if the robot's acceleration is limited. Forwards and backwards > 0. nullopt:
+  /// constant speed.
   std::optional<SpeedProfile> profile = {};
 };
 
@@ -33,16 +34,17 @@ using ActionSequence = std::vector<Action>;
 /// Returns what an action covers: metres of a translation, radians of a rotation.
 double amount_of(const Action& action);
 
-/// Returns what the profile of an action, which has one, would cover in its time.
+/// Returns the length (or angle) that the profile would cover in the action's time. The action has a profile.
 double covered_by_profile(const Action& action);
-/// Returns whether the profile of an action, which has one, is possible and leads over the length (or angle)
-/// of the action in its time, within the contact tolerance.
+/// Returns whether an action's profile is possible and covers the action's length (or angle) in its time,
+/// within the contact tolerance. The action has a profile.
 bool profile_fits(const Action& action);
 
-/// The share of its length (or angle), in [0, 1], that an action covers in a share of its duration.
+/// The share of its length (or angle), in [0, 1], that an action covers in the share `elapsed` of its
+/// duration.
 double share_covered(const Action& action, double elapsed);
 
-/// The share of an action, in [0, 1], that is covered at time `t`; 1 of one that takes no time.
+/// The share of an action, in [0, 1], that is covered at time `t`. 1 if the action takes no time.
 double share_at(const Action& action, double t);
 /// The inverse: the time at which a share in [0, 1] is covered.
 double time_at_share(const Action& action, double share);

@@ -13,7 +13,7 @@
 
 namespace fleetplan::core {
 
-/// How large one robot is with one of its loads, and how fast, with the plan's options applied.
+/// How large and how fast a robot is with one of its loads, with the plan's options applied.
 struct Body {
   double radius = 0.0;            // metres, of the bare disk
   double wall_radius = 0.0;       // metres, to walls: with the inflation
@@ -50,7 +50,7 @@ inline Body body_of(const Robot& robot, const PlanOptions& options, const Load& 
           .angular_inertia = robot.angular_inertia()};
 }
 
-/// Returns its bodies with the loads that it has after so many goals, in the stages from then on.
+/// Returns the robot's bodies in the stages that begin after so many goals are served.
 inline std::vector<Body> bodies_of(const Robot& robot, const PlanOptions& options, std::size_t served) {
   const std::vector<Load> loads = loads_of(robot);
   std::vector<Body> bodies;

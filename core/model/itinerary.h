@@ -1,7 +1,7 @@
 #pragma once
 
-// What is left to plan for a robot, which the planners read instead of the robot itself; and where the robot
-// is on its way, with the radius that it has there.
+// What is left to plan for a robot; planners read this instead of the robot itself. Also: where the robot is
+// on its way, and its radius there.
 
 #include <cstddef>
 #include <optional>
@@ -17,8 +17,7 @@
 
 namespace fleetplan::core {
 
-/// What is left to plan for a robot after its committed actions. Its goals are numbered as those of the
-/// robot.
+/// What is left to plan for a robot after its committed actions. Goals have the same numbers as in Robot.
 struct Itinerary {
   Trajectory committed;        // the robot's centre until `t_begin`; then it stays
   Pose pose;                   // pose at `t_begin`
@@ -28,13 +27,13 @@ struct Itinerary {
   std::vector<Goal> goals;     // the goals that follow, the last one included; empty for a parked robot
   std::size_t first_goal = 0;  // the number of goals.front()
   /// If the committed actions end at rest in the first goal's pose: when that rest begins, and how much of
-  /// the service is done, seconds. This counts only as long as the robot does not leave.
+  /// the service is done by their end, seconds. This counts only as long as the robot does not leave.
   double arrived = 0.0;
   double service_done = 0.0;
 
   Load load = {};  // at t = 0
-  /// Metres, by the number of the goal, those served included: the radius from the end of the service on;
-  /// nullopt: as before. Empty if the radius never changes.
+  /// The radius after each service, metres, by the number of the goal, served goals included. nullopt: as
+  /// before. Empty if the radius never changes.
   std::vector<std::optional<double>> radius_after = {};
 
   bool is_invalid = false;  // see Robot::invalid
@@ -45,29 +44,29 @@ struct Itinerary {
 
   /// Whether it stays where its committed actions end.
   bool is_parked() const { return goals.empty(); }
-  /// Whether it makes way for others once it has served its own goals, or if it has none.
+  /// Whether it makes way for others after its own goals, or because it has none.
   bool yields() const { return !goals.empty() && goals.back().anywhere; }
   /// The goals with a pose, those served included.
   std::size_t own_goal_count() const { return first_goal + goals.size() - (yields() ? 1 : 0); }
-  /// One of the goals that are left, by its number.
+  /// A goal that is left, by its number.
   const Goal& goal(std::size_t number) const { return goals[number - first_goal]; }
   const Goal& last_goal() const { return goals.back(); }
 
   /// Metres, by the number of goals served.
   double radius_after_goals(std::size_t served) const;
-  /// The largest radius at any time, and that at the end; metres.
+  /// The largest radius at any time, and the radius at the end; metres.
   double largest_radius() const;
   double last_radius() const { return radius_after_goals(radius_after.size()); }
 };
 
-/// Returns what is left to plan for a robot. Its goals are served as early as possible by the rests of the
-/// committed actions, except the last goal, which always remains. A part of a service that is done counts if
-/// the robot goes on with it.
+/// Returns what is left to plan for a robot. The rests of the committed actions serve goals as early as
+/// possible. Only the last goal always remains. A part of a service that is done counts if the robot goes on
+/// with it.
 Itinerary itinerary_of(const Robot& robot);
 /// The same for robots, in their order.
 std::vector<Itinerary> itineraries_of(std::span<const Robot> robots);
 
-/// Whether nothing is left to do for the robot, which has a goal, when its committed actions end.
+/// Whether the robot, which has a goal, has nothing left to do when its committed actions end.
 bool has_arrived(const Itinerary& itinerary);
 
 /// From `t` on (seconds) a robot has another radius.
@@ -76,11 +75,11 @@ struct RadiusStep {
   double radius = 0.0;  // metres
 };
 
-/// The steps of a robot that makes these visits, which begin with its first goal. A visit without end makes
-/// none. Empty for a robot that keeps its radius.
+/// The changes of radius of a robot that makes these visits, which begin with its first goal. A visit without
+/// end changes nothing. Empty for a robot that keeps its radius.
 std::vector<RadiusStep> radius_steps(const Itinerary& itinerary, std::span<const Visit> visits);
 
-/// Contiguous segments from t = 0 with the radius of the robot, which is `first` metres at first; a rest is
+/// Contiguous segments from t = 0 with the robot's radius, which is `first` metres at t = 0. A rest is
 /// divided where the radius changes.
 std::vector<SizedSegment> with_radii(const std::vector<TimedSegment>& segments, double first,
                                      const std::vector<RadiusStep>& steps);
@@ -88,11 +87,11 @@ std::vector<SizedSegment> with_radii(const std::vector<TimedSegment>& segments, 
 /// The committed motion of a robot, waits included, from t = 0 to its end; see with_radii.
 std::vector<SizedSegment> committed_segments(const Itinerary& itinerary);
 
-/// The instant at which the committed motion ends, if the robot has a larger radius from then on: then it
-/// certainly has it, however soon it leaves.
+/// The instant at which the committed motion ends, if the robot has a larger radius from then on. It
+/// certainly has the larger radius at this instant, however soon it leaves.
 std::optional<SizedSegment> growth_at_end(const Itinerary& itinerary);
 
-/// Returns where a robot with a goal certainly is: its committed motion, and then the instant of
+/// Returns where a robot with a goal certainly is: its committed motion, followed by the instant of
 /// growth_at_end.
 std::vector<SizedSegment> certain_segments(const Itinerary& itinerary);
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// What changes about a robot that picks loads up or puts them down at its goals (Goal::radius_after and its
-// companions): the disk that others see, and how fast it drives.
+// Robots can pick up loads or put them down at their goals (Goal::radius_after and its companions). A load
+// changes the disk that others must avoid, and how fast the robot drives.
 
 #include <cstddef>
 #include <optional>
@@ -18,7 +18,7 @@
 
 namespace fleetplan::core {
 
-/// What matters about a robot while its load does not change.
+/// The properties of a robot that a load changes.
 struct Load {
   double radius = 0.0;               // metres
   double linear_speed = 0.0;         // metres per second
@@ -38,10 +38,11 @@ struct Load {
 Load first_load(const Robot& robot);
 /// Returns the load after the service at a goal.
 Load load_after(const Load& before, const Goal& goal);
-/// Returns the loads by the number of goals served: as many as the robot has goals, and one more.
+/// Returns the loads by the number of goals served. There is one more load than goals.
 std::vector<Load> loads_of(const Robot& robot);
 
-/// The load of a robot that executes its actions one after the other, contiguous from t = 0 in its start.
+/// The load of a robot that executes its actions one after the other. They are contiguous from t = 0 in its
+/// start.
 class LoadOnTheWay {
  public:
   /// `robot` outlives this object.
@@ -58,27 +59,29 @@ class LoadOnTheWay {
   GoalsOnTheWay served_;
 };
 
-/// Returns the load with which a robot executes one of its actions, which are contiguous from t = 0 in its
+/// Returns the load with which a robot executes one of its actions. They are contiguous from t = 0 in its
 /// start.
 Load load_during(const Robot& robot, std::span<const Action> actions, std::size_t index);
-/// Returns how many of these actions a robot can execute with the loads that it has then: up to the first
-/// that is too fast for a load that it has taken on the way, before which it stands; all if there is none.
+/// Returns how many of these actions a robot can execute with the loads that it has during them. It stops
+/// before the first action that is too fast for a load picked up on the way; it stands still there. All
+/// actions, if none is too fast.
 std::size_t count_of_executable(const Robot& robot, std::span<const Action> actions);
-/// Makes the load the one that the robot has.
+/// Sets the load that the robot has.
 void set_load(Robot& robot, const Load& load);
 /// Whether the loads of the robot differ.
 bool changes_load(const Robot& robot);
 
-/// Completes the profiles of contiguous actions of a robot from t = 0 in its start with its accelerations.
+/// Adds the robot's accelerations to the profiles of its actions, which are contiguous from t = 0 in its
+/// start.
 void set_inertia(std::vector<Action>& actions, const Robot& robot);
-/// Completes the profile of an action that it executes with this load.
+/// Adds the accelerations with this load to the profile of an action.
 void set_inertia(Action& action, const Robot& robot, const Load& load);
 
-/// Returns the radii of the robot by the number of goals served, metres.
+/// Returns the robot's radii, metres, by the number of goals served.
 std::vector<double> radii_of(const Robot& robot);
-/// Whether not all of these are the same.
+/// Whether these radii differ.
 bool changes_radius(const Robot& robot);
-/// The largest and the last of them.
+/// The largest of these radii, and the last one.
 double largest_radius(const Robot& robot);
 double last_radius(const Robot& robot);
 

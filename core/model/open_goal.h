@@ -21,12 +21,12 @@ struct Alternative {
   Position position{0.0, 0.0};
   std::optional<double> theta;  // radians, (-pi, pi]
   double bias = 0.0;            // seconds, >= 0, added to the cost of choosing it
-  std::size_t number = 0;       // among those that were given
+  std::size_t number = 0;       // its number in the list of the request
 };
 
-/// A goal of a robot (Robot::goal_at) that is served at one of several poses. The goal itself has the pose
-/// that is chosen. One with a tolerance has its own pose only, and perhaps a place near it that is told,
-/// until it is widened.
+/// A goal (Robot::goal_at) that is served at one of several poses. The goal itself has the pose that is
+/// chosen. A goal with a tolerance has only its own pose, and perhaps a nearby place that the request tells,
+/// until widen() adds more.
 struct OpenGoal {
   std::size_t goal = 0;            // number of the goal
   std::vector<Alternative> poses;  // at least one
@@ -47,16 +47,17 @@ struct OpenGoal {
 /// The farthest tolerance, metres.
 inline constexpr double kMaxGoalTolerance = 1.0;
 
-/// Adds poses about its own one to a goal with a tolerance: on eight circles, in twelve directions, with its
-/// heading. They are for when its own pose is of no use; nearer ones are preferred, whatever the way there
-/// takes, but a robot goes on to the one where it has been going. Only for goals that may_widen().
+/// Adds poses to a goal with a tolerance, for when its own pose is of no use. They are on eight circles about
+/// its own pose, in twelve directions, with the goal's heading. Nearer poses are preferred, whatever the way
+/// there takes. But a robot goes on to the pose where it has been going. Only for goals that may_widen().
 void widen(OpenGoal& open);
 
-/// Takes a place, which is told, for a goal with a tolerance that has not been widened, instead of one told
-/// before. It is `chosen` then. Returns whether it is near enough; if not, nothing changes.
+/// Takes a place that the request tells for a goal with a tolerance, instead of a place told before. It is
+/// `chosen` then. The goal must not have been widened. Returns whether the place is near enough; if not,
+/// nothing changes.
 bool take_place(OpenGoal& open, const Position& place);
 
-/// Returns the goal of this number among open goals, ascending; null if it is none of them.
+/// Returns the goal of this number among open goals, which are ascending; null if this goal is not open.
 template <class OpenGoals>
 auto* find_open(OpenGoals& open, std::size_t goal) {
   const auto found =
@@ -68,24 +69,28 @@ auto* find_open(OpenGoals& open, std::size_t goal) {
 /// Chooses a pose, by its index, for the robot whose goal this is.
 void choose(Robot& robot, OpenGoal& open, std::size_t pose);
 
-/// Whether the robot stays at this goal, so that nobody else can.
+/// Whether the robot stays at this goal, so that no other robot can stay there.
 bool stays_at(const Robot& robot, std::size_t goal);
 
-/// Settles the open goals of a robot, ascending, that `actions`, which are contiguous from t = 0 in its
-/// start, serve: each where it is served first, if nobody has told its pose. So is the goal whose service is
-/// under way at their end. The one at which the robot stays is settled only with `also_last`, where they end.
+/// Settles the open goals, ascending, that a robot serves by `actions`, which are contiguous from t = 0 in
+/// its start.
+///
+/// - A goal is settled at the pose where it is served first, unless its pose has been told.
+/// - The goal whose service is under way at the end of the actions is settled, too.
+/// - The goal at which the robot stays is settled only with `also_last`, at the pose where the actions end.
+///
 /// Goals that are settled stay as they are. Ends early if `stop` is met.
 void settle_by_actions(Robot& robot, std::vector<OpenGoal>& open, std::span<const Action> actions,
                        bool also_last, const StopCondition& stop);
 
-/// Chooses a pose at which `actions` do not serve the first goal that is not settled, which whoever made them
-/// says: they may turn in one pose on their way to another. The one where they end is preferred. Ends early
-/// if `stop` is met.
+/// Chooses a pose for the first goal that is not settled. `actions` do not serve this goal, as whoever made
+/// them says: they may turn in one pose on their way to another. So the pose is one at which they do not
+/// serve it, preferably the pose where they end. Ends early if `stop` is met.
 void choose_unserved(Robot& robot, std::vector<OpenGoal>& open, std::span<const Action> actions,
                      const StopCondition& stop);
 
-/// See LoadOnTheWay. A goal that is open is served in the pose in which the robot rests first, if it is not
-/// told.
+/// See LoadOnTheWay. An open goal whose pose is not told is served in the pose in which the robot rests
+/// first.
 class OpenLoadOnTheWay {
  public:
   OpenLoadOnTheWay(const Robot& robot, const std::vector<OpenGoal>& open);

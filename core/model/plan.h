@@ -15,8 +15,8 @@
 
 namespace fleetplan::core {
 
-/// Robots by index: the first few of a list that may contain all of them, and how many it contains. So lists
-/// for every robot are not quadratic in the robots.
+/// A list of robots by index that may contain all robots: its first few entries, and its length. So lists for
+/// every robot are not quadratic in the robots.
 class RobotList {
  public:
   static constexpr std::size_t kMaxListed = 20;
@@ -46,10 +46,12 @@ class RobotList {
   std::size_t total_ = 0;
 };
 
-/// The plan of one robot. The actions are contiguous in time and space, begin at t = 0 in the start pose with
-/// the committed actions, and end at `cost` in the last goal's pose, where the robot stays. A robot that does
-/// not need to move has no actions and cost 0. `lower_bound` bounds the robot's cost alone on the static map
-/// from below and never exceeds `cost`; the checker ignores it.
+/// The plan of one robot. Its actions are contiguous in time and space. They begin at t = 0 in the start pose
+/// with the committed actions, and end at `cost` in the last goal's pose, where the robot stays. A robot that
+/// does not need to move has no actions and cost 0.
+///
+/// `lower_bound` is a lower bound of the robot's cost alone on the static map, and never exceeds `cost`. The
+/// checker ignores it.
 struct RobotPlan {
   std::size_t robot = 0;  // index into the problem's robots
   double cost = 0.0;      // seconds
@@ -57,17 +59,20 @@ struct RobotPlan {
   double lower_bound = 0.0;        // seconds
   std::vector<Visit> visits = {};  // one for each goal, in their order; the last one has no end
   /// Seconds, if the plan stops at the horizon (PlanOptions::horizon), where the robot may rest for good:
-  /// `cost` and the estimate of the static way that is left; kForever if robots that stay close that way.
-  /// Then the visits are those before the horizon, and there are estimates of those that are left.
+  /// `cost` plus an estimate of the static way that is left. kForever if robots that stay close that way.
+  ///
+  /// `visits` then has the visits before the horizon, and `estimated_visits` the goals that are left.
   std::optional<double> estimated_cost = {};
   std::vector<Visit> estimated_visits = {};
-  /// Whether the plan stops at the horizon and the robot gains nothing on the way to its goals until then, or
-  /// would come and go for ever, as it and those that block it cannot all arrive.
+  /// Whether the plan stops at the horizon, and one of these holds:
+  ///
+  /// - The robot gains nothing on the way to its goals until then.
+  /// - It would come and go for ever, because it and the robots that block it cannot all arrive.
   bool is_stuck = false;
   RobotList blocked_by = {};  // the robots in the way of a robot that is stuck, as far as they were found
 };
 
-/// A robot without a plan. It executes its committed actions, if any, and stays at their end; the plans of
+/// A robot without a plan. It executes its committed actions, if any, and stays at their end. The plans of
 /// other robots keep clear of it.
 struct Unplanned {
   enum class Reason {
@@ -94,8 +99,8 @@ inline Unplanned unplanned_invalid(std::size_t robot) {
 /// The number of reasons; Reason::invalid is the last one.
 inline constexpr std::size_t kUnplannedReasons = static_cast<std::size_t>(Unplanned::Reason::invalid) + 1;
 
-/// An unavoidable collision, which no plan prevents: a robot cannot leave its place in time before the
-/// committed motion of another robot, or an obstacle, passes there. The check of a plan exempts these pairs.
+/// A collision that no plan prevents. For example, a robot cannot leave its place before the committed motion
+/// of another robot, or an obstacle, passes there. The check of a plan exempts these pairs.
 struct UnavoidableCollision {
   std::size_t robot = 0;
   std::optional<std::size_t> other;     // another robot, or
@@ -103,12 +108,13 @@ struct UnavoidableCollision {
   double t = 0.0;                       // seconds; the begin of the overlap
 };
 
-/// The most unavoidable collisions of one robot in a plan; later ones are not listed. If a robot has so many,
-/// later collisions of what it certainly does are exempt, too. So the list grows with the robots only.
+/// The most unavoidable collisions of one robot that a plan lists; later ones are not listed. If a robot has
+/// so many, later collisions of its certain motion are exempt, too. So the list grows only with the number of
+/// robots.
 inline constexpr std::size_t kMaxUnavoidableOfRobot = 8;
 
-/// The sum (flowtime) and the maximum (makespan) of the planned robots' costs, or of their lower bounds, in
-/// seconds.
+/// Flowtime and makespan, seconds: the sum and the maximum of the planned robots' costs, or of their lower
+/// bounds.
 struct Objectives {
   double flowtime = 0.0;
   double makespan = 0.0;
@@ -119,16 +125,21 @@ inline Objectives including(const Objectives& objectives, double cost) {
   return {objectives.flowtime + cost, std::max(objectives.makespan, cost)};
 }
 
-/// How robots are planned: one after the other (with repairs and other orders), all at once in steps, with
-/// room for two where they meet; and how plans become better: without the lattice, or by other plans.
+/// How plans are made and improved.
+///
+/// - priorities: one robot after the other, with repairs and other orders.
+/// - steps: all robots at once, step by step.
+/// - room: two robots that meet get room to pass each other.
+/// - smoothing: paths leave the lattice.
+/// - improvement: robots get other plans.
 enum class Method : std::uint8_t { priorities, steps, room, smoothing, improvement };
 /// Method::improvement is the last one.
 inline constexpr std::size_t kMethods = static_cast<std::size_t>(Method::improvement) + 1;
 
-/// How many robots a method was to plan; each time counts.
+/// How many robots a method tried to plan. A robot counts each time.
 struct MethodCounts {
   std::int64_t tried = 0;
-  std::int64_t served = 0;           // have a plan of it, or one that it may change
+  std::int64_t served = 0;           // robots with a plan of this method, or with a plan that it may change
   std::int64_t could_not_serve = 0;  // for what they or the request ask for, it is not made
 };
 
@@ -138,8 +149,8 @@ struct SearchStatistics {
   std::int64_t expansions = 0;                 // search labels expanded
   std::int64_t improvements = 0;               // improvements found in mode `anytime`
   std::array<MethodCounts, kMethods> moves{};  // by Method
-  /// More time would change nothing: in mode `anytime` no robot can become cheaper, or no further attempt can
-  /// plan a robot that is unplanned.
+  /// More time would change nothing. In mode `anytime`: no robot can become cheaper, or no further attempt
+  /// can plan an unplanned robot.
   bool exhausted = false;
 };
 
@@ -159,7 +170,7 @@ struct Plan {
   SearchStatistics search;
 };
 
-/// The objectives of the estimates, without robots that have none.
+/// The objectives of the estimates, without robots that have no estimate.
 inline Objectives estimated_objectives(const Plan& plan) {
   Objectives estimated;
   for (const RobotPlan& robot : plan.plans) {

@@ -23,8 +23,10 @@ struct ProblemFault {
     goal_in_obstacle,   // the robot's disk at a goal overlaps a blocked cell or zone, or leaves the map
     starts_overlap,     // the starts of `robot` and `other` (< robot) overlap
     goals_overlap,      // the last goals of `robot` and `other` (< robot) overlap, and neither yields
-    /// The committed motion of `robot`, to its own end, collides with that of another robot, a robot that
-    /// stands at its start, a wall, a blocked zone or the edge of the map.
+    /// The committed motion of `robot`, to its own end, collides with one of these:
+    ///
+    /// - the committed motion of another robot, or a robot that stands at its start,
+    /// - a wall, a blocked zone or the edge of the map.
     committed_collision,
     committed_in_zone,  // the committed motion of `robot` breaks the rule of `zone`, which is not blocked
   };
@@ -47,33 +49,38 @@ struct ProblemFaults {
   bool finished = true;  // false when the stop condition was met first; then there may be more
 };
 
-/// How much the starts and last goals of a problem may overlap, what moves besides its robots, and the zones.
+/// How far the starts and last goals of a problem may overlap, the moving obstacles, and the zones.
 struct ProblemConditions {
   std::vector<MovingObstacle> obstacles = {};
   std::vector<Zone> zones = {};
-  /// Metres: two bare disks, or a bare disk and a wall, may overlap by so much at the start. 0: contact only.
+  /// Metres: how far two bare disks, or a bare disk and a wall, may overlap at the start. 0: contact only.
   double pair_overlap = 0.0;
   double wall_overlap = 0.0;
-  /// Metres: a bare disk may overlap a wall by so much at the last goal, where it stays, and in committed
-  /// motion, which may lead there. 0: contact only.
+  /// Metres: how far a bare disk may overlap a wall at the last goal, where it stays. The same holds in
+  /// committed motion, which may lead there. 0: contact only.
   double wall_overlap_at_goal = 0.0;
   double inflation = 0.0;  // metres, of the plan: with it, robots leave zones and are clear of them
-  /// Each robot is alone on the map, as the others are there at other times: they are not compared.
+  /// Each robot is alone on the map, because the others are there at other times. Robots are not compared.
   bool one_at_a_time = false;
-  /// Lists the first faults of every robot, instead of the first ones of all.
+  /// Lists the first faults of every robot, instead of the first faults of all robots.
   bool list_faults_of_every_robot = false;
 };
 
-/// Returns the conditions that follow from options: how much starts and last goals may overlap, and the
+/// Returns the conditions that follow from options: how far starts and last goals may overlap, and the
 /// inflation.
 ProblemConditions conditions_of(const PlanOptions& options);
 
-/// A map and robots that can be planned for. A problem that exists is valid: radii and speeds are positive
-/// and finite, every start and goal is clear of obstacles by the bare radius, no two starts and no two last
-/// goals overlap (by more than kContactTolerance, or by more than the conditions allow), and committed
-/// motion collides with nothing that is certain. The planner relies on this and does not check it again.
-/// Robots with Robot::invalid are exempt. Starts, goals and committed motion may be inside of zones that may
-/// be left (Zone::may_leave). Goals that are put off are no goals of the problem's robots (PostponedGoals).
+/// A map and robots that can be planned for. A problem that exists is valid:
+///
+/// - Radii and speeds are positive and finite.
+/// - Every start and goal is clear of obstacles by the bare radius.
+/// - No two starts and no two last goals overlap by more than kContactTolerance, or than the conditions
+///   allow.
+/// - Committed motion collides with nothing that is certain.
+///
+/// The planner relies on this and does not check it again. Robots with Robot::invalid are exempt. Starts,
+/// goals and committed motion may be inside zones that may be left (Zone::may_leave). Goals that are put off
+/// are not among the goals of the problem's robots (PostponedGoals).
 class Problem {
  public:
   /// Returns the problem, or its faults. `robots` have positive finite radii and speeds.
@@ -97,7 +104,7 @@ class Problem {
   const std::vector<Zone>& zones() const { return zones_; }
   /// Whether each robot is alone on the map, see ProblemConditions.
   bool one_at_a_time() const { return one_at_a_time_; }
-  /// What zones that may be left change for a robot; null if nothing.
+  /// What zones that may be left change for a robot; null if they change nothing.
   const Leaving* leaving(std::size_t robot) const { return leaving_.empty() ? nullptr : &leaving_[robot]; }
 
  private:

@@ -27,11 +27,11 @@ class Observer {
   /// The progress has changed. Can be called thousands of times a second.
   virtual void progressed(const Progress& progress) = 0;
 
-  /// Whether show() is to be called with the current plan. Called repeatedly while `anytime` has a plan that
-  /// is better than the one shown last.
+  /// Whether to call show() with the current plan. Called repeatedly while `anytime` has a plan that is
+  /// better than the last one shown.
   virtual bool wants_plan() = 0;
 
-  /// Receives the plan that would be returned now; `deterministic` is false, as the observer chose the
+  /// Receives the plan that would be returned now. `deterministic` is false, because the observer chose the
   /// moment.
   virtual void show(const Plan& plan) = 0;
 };

@@ -13,31 +13,32 @@
 
 namespace fleetplan::core {
 
-/// A pose in which a robot comes to rest; without theta, its heading there is free.
+/// A pose in which a robot comes to rest. Without theta, the heading is free.
 struct Goal {
   Position position{0.0, 0.0};
   std::optional<double> theta;  // radians, (-pi, pi]
   double service = 0.0;         // seconds, >= 0, at rest in the pose
   double not_before = 0.0;      // seconds, >= 0; the service begins at this time at the earliest
-  /// Metres: the radius of the robot from the end of the service on; nullopt: as before.
+  /// Metres: the robot's radius after the service. nullopt: the radius stays the same.
   std::optional<double> radius_after = {};
-  /// Seconds: by when the robot should arrive, see PlanOptions::Objective; may be negative: the past.
+  /// Seconds: when the robot should arrive at the latest, see PlanOptions::Objective. A negative time is in
+  /// the past.
   std::optional<double> due = {};
-  /// No pose of its own, but any place where the robot may rest for good: the last goal of a robot that makes
-  /// way when it has nothing else to do (Robot::yields). Then `position` is that of the goal before it, or
-  /// where the plan begins.
+  /// True: the goal has no pose of its own, but any place where the robot may rest for good. It is the last
+  /// goal of a robot that makes way when it has nothing else to do (Robot::yields). Then `position` is the
+  /// position of the goal before, or where the plan begins.
   bool anywhere = false;
-  /// How the robot drives from the end of the service on (metres per second, metres per second squared);
-  /// nullopt: as before. A deceleration that is not given follows an acceleration that is.
+  /// How the robot drives after the service (metres per second, metres per second squared). nullopt: as
+  /// before. A deceleration that is not given equals an acceleration that is given.
   std::optional<double> linear_speed_after = {};
   std::optional<double> linear_acceleration_after = {};
   std::optional<double> linear_deceleration_after = {};
 
-  /// When the service ends for a robot that comes to rest in the pose at this time; seconds.
+  /// When the service ends if the robot comes to rest in the pose at this time; seconds.
   double service_end(double t_rest) const { return std::max(t_rest, not_before) + service; }
 
-  /// Whether the load of the robot changes at the end of the service, and with it its radius or how it
-  /// drives.
+  /// Whether the robot's load changes at the end of the service. Its radius, or how it drives, then changes,
+  /// too.
   bool changes_load() const {
     return radius_after || linear_speed_after || linear_acceleration_after || linear_deceleration_after;
   }
@@ -58,13 +59,13 @@ struct Robot {
   Pose start;                  // at t = 0
   std::optional<Goal> goal;    // nullopt: parked, it stays at its start or its committed end
   std::vector<Goal> via = {};  // visited before `goal`
-  /// The actions that the robot executes whatever is planned: contiguous from t = 0 in `start`. The plan goes
-  /// on from their end.
+  /// The actions that the robot executes whatever is planned. They are contiguous from t = 0 in `start`. The
+  /// plan goes on from their end.
   std::vector<Action> committed = {};
-  /// The actions of an earlier plan, from t = 0 in `start`, the committed ones included; nullopt if there is
+  /// The actions of an earlier plan, from t = 0 in `start`, the committed ones included. nullopt if there is
   /// none.
   std::optional<std::vector<Action>> previous = {};
-  /// Whether the robot's geometry is at fault. It stands at its start for ever then, as an obstacle.
+  /// Whether the robot's geometry is at fault. Then it stands at its start for ever, as an obstacle.
   bool invalid = false;
   bool may_reverse = false;  // it may translate backwards
   double vicinity = 0.0;     // metres, >= 0, added to its radius against other robots only
@@ -77,17 +78,17 @@ struct Robot {
 
   Inertia linear_inertia() const { return {1.0 / linear_acceleration, 1.0 / linear_deceleration}; }
   Inertia angular_inertia() const { return {1.0 / angular_acceleration, 1.0 / angular_acceleration}; }
-  /// Whether the speed of actions of this type changes within limits. Loads change limits, but give none to a
-  /// robot without them.
+  /// Whether the speed of actions of this type changes within limits. Loads change limits, but a robot
+  /// without limits gets none.
   bool limits_changes_of_speed(Action::Type type) const {
     if (type == Action::Type::wait) return false;
     return (type == Action::Type::rotate ? angular_inertia() : linear_inertia()).is_limited;
   }
 
   std::size_t goal_count() const { return via.size() + (goal ? 1 : 0); }
-  /// Whether it makes way for others once it has served its own goals, or if it has none.
+  /// Whether it makes way for others after its own goals, or because it has none.
   bool yields() const { return goal && goal->anywhere; }
-  /// Whether it yields and has no goals of its own: it need not move.
+  /// Whether it yields and has no goals of its own. Then it need not move.
   bool is_idle() const { return yields() && via.empty(); }
   /// The goals that have a pose.
   std::size_t own_goal_count() const { return goal_count() - (yields() ? 1 : 0); }
@@ -99,11 +100,11 @@ struct Robot {
     goal = place;
   }
   const Goal& goal_at(std::size_t index) const { return index < via.size() ? via[index] : *goal; }
-  /// The pose in which the committed actions end, and the time of it in seconds: the start and 0 without any.
+  /// The pose in which the committed actions end, and the time in seconds. Without any, the start and 0.
   Pose committed_end() const { return committed.empty() ? start : committed.back().to; }
   double committed_until() const { return committed.empty() ? 0.0 : committed.back().t_end; }
-  /// The speed at which the profile of a committed translation begins, metres per second, negative backwards;
-  /// 0 without one.
+  /// The speed at which the profile of a committed translation begins, metres per second; negative when
+  /// backwards. 0 if there is no profile.
   double committed_speed() const {
     if (committed.empty() || committed.front().type != Action::Type::translate) return 0.0;
     const Action& first = committed.front();

@@ -1,7 +1,7 @@
 #pragma once
 
-// Which goals a robot serves by its actions: the one place that tells it, but for the checker, which has code
-// of its own.
+// Which goals a robot serves by its actions. Only this file decides it, except for the checker, which has its
+// own code.
 
 #include <cstddef>
 #include <span>
@@ -13,13 +13,13 @@
 
 namespace fleetplan::core {
 
-/// Whether a robot in this pose is in the pose of the goal, within kContactTolerance; for a goal without
-/// theta, with any heading. Any pose is that of a goal that is anywhere.
+/// Whether a robot in this pose is in the goal's pose, within kContactTolerance. For a goal without theta,
+/// any heading is right. For a goal that is anywhere, any pose is right.
 bool is_in_pose(const Pose& pose, const Goal& goal);
 
-/// Follows the actions of a robot from rest to rest, contiguous from t = 0 in its start, and serves one goal
-/// after the other, each as early as possible: by an uninterrupted rest in its pose, or in the instant
-/// between two actions if it has no service. The last goal always remains.
+/// Follows the actions of a robot from rest to rest, contiguous from t = 0 in its start. It serves one goal
+/// after the other, each as early as possible, by an uninterrupted rest in the goal's pose. Without a
+/// service, the instant between two actions is enough. The last goal always remains.
 class GoalsOnTheWay {
  public:
   /// `robot` outlives this object.
@@ -30,9 +30,9 @@ class GoalsOnTheWay {
   std::size_t count() const { return visits_.size(); }
   /// The visits to them, in their order.
   const std::vector<Visit>& visits() const { return visits_; }
-  /// Since when it is at rest, or the end of the service of another goal in the same pose; seconds.
+  /// When the rest began, or when the service of another goal in the same pose ended; seconds.
   double arrived() const { return arrived_; }
-  /// Seconds of the service at the next goal that are done.
+  /// How much of the service at the next goal is done, seconds.
   double service_done() const { return service_done_; }
 
  private:
@@ -60,18 +60,18 @@ ServedGoals served_goals(const Robot& robot, std::span<const Action> actions);
 /// no end. There are fewer visits than goals if the robot does not serve all of them.
 std::vector<Visit> visits_of(const Robot& robot, std::span<const Action> actions);
 
-/// Says of the waits of a robot which goals with a service, or a `not_before`, they serve, by the visits that
-/// its actions make; of no others. A wait from `first` on that is more than one service is divided; one
-/// before is said to serve the first of its goals.
+/// Marks the waits of a robot with the goals that they serve: goals with a service or a `not_before`, by the
+/// visits that the actions make. Other waits get no mark. A wait from `first` on that contains several
+/// services is divided. A wait before `first` is marked with the first of its goals.
 void mark_services(const Robot& robot, std::vector<Action>& actions, std::size_t first);
 
-/// Returns the actions of the robot's previous plan as received; no actions for a robot that is parked or has
-/// no previous plan. If there are none, the robot rests after its committed actions.
+/// Returns the actions of the robot's previous plan as received. Returns none for a robot that is parked or
+/// has no previous plan: it rests after its committed actions.
 const std::vector<Action>& previous_actions(const Robot& robot);
 
-/// Returns when the service at the last goal ends for a robot with a goal that stays where `actions` end,
-/// seconds; kForever if it does not serve all goals. A service that is committed does not end before the
-/// commitment does.
+/// Returns when the service at the last goal ends, seconds, for a robot with a goal that stays where
+/// `actions` end. Returns kForever if it does not serve all goals. A committed service does not end before
+/// the commitment ends.
 double last_service_end(const Robot& robot, std::span<const Action> actions);
 /// The same by the robot's previous plan.
 double previous_service_end(const Robot& robot);

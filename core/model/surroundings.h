@@ -1,6 +1,6 @@
 #pragma once
 
-// What is around robots beside the walls of the map: moving obstacles and zones.
+// What surrounds the robots, beside the walls of the map: moving obstacles and zones.
 
 #include <algorithm>
 #include <cstddef>
@@ -12,9 +12,10 @@
 
 namespace fleetplan::core {
 
-/// A disk that nobody here controls: a person, a robot of another fleet. It is absent before the first entry,
-/// moves straight at constant speed from entry to entry, and then stays or vanishes. The instant at which it
-/// appears or vanishes counts as occupied. It may cross walls, the edge of the map and other obstacles.
+/// A disk that the planner does not control, for example a person or a robot of another fleet. It is absent
+/// before the first entry, moves straight at constant speed from entry to entry, and then stays or vanishes.
+/// It also occupies its place in the instant when it appears or vanishes. It may cross walls, the edge of the
+/// map and other obstacles.
 struct MovingObstacle {
   struct Entry {
     double t = 0.0;  // seconds, >= 0, strictly ascending
@@ -39,8 +40,8 @@ struct Zone {
 
   std::string id;
   Type type = Type::blocked;
-  /// A simple polygon: at least three corners in order, map frame, metres. Its border belongs to a blocked
-  /// zone, not to the others.
+  /// A simple polygon: at least three corners in order, map frame, metres. The border belongs to a blocked
+  /// zone, but not to other zones.
   std::vector<Position> polygon = {};
   double linear_speed = kNoLimit;        // for `speed`: metres per second, > 0
   double linear_speed_share = kNoLimit;  // for `speed`: share of the robot's own linear speed, > 0
@@ -48,14 +49,14 @@ struct Zone {
   double heading = 0.0;                  // for `one_way`: radians
   double half_angle = 0.0;               // for `one_way`: radians, > 0
   std::vector<std::size_t> robots = {};  // the robots that it is for, ascending; empty: all robots
-  /// For `blocked`: robots that are inside may leave, see ways_out.h, and goals inside are put off. Otherwise
-  /// no robot may be inside in the first place.
+  /// For `blocked`: robots inside may leave, see ways_out.h, and goals inside are put off. If false, no robot
+  /// may be inside at any time.
   bool may_leave = false;
 
   bool is_for(std::size_t robot) const {
     return robots.empty() || std::binary_search(robots.begin(), robots.end(), robot);
   }
-  /// Whether robots may not be inside from the first.
+  /// Whether no robot may be inside at any time.
   bool is_wall() const { return type == Type::blocked && !may_leave; }
 
   /// Returns the limit, metres per second, for a robot with this linear speed of its own.

@@ -16,31 +16,31 @@ struct Visit {
   double t_leave = 0.0;   // the end of the service; kForever at the last goal, where the robot stays
 };
 
-/// A straight move of a robot. One of no length leads from a place off the lattice to the vertex there.
+/// A straight move of a robot. A move of length 0 leads from a place off the lattice to the vertex there.
 struct TimedMove : TimedSegment {
   std::optional<SpeedProfile> profile = {};  // nullopt: at constant speed
   bool reverse = false;                      // backwards
-  /// Of a planned move: it follows the one before without a stop, straight on, at another speed or with a
-  /// profile of its own.
+  /// Of a planned move: whether it follows the move before without a stop. It goes straight on, at another
+  /// speed or with its own profile.
   bool continues = false;
 };
 
-/// The motion of one robot's centre from t = 0 on, committed moves included. It waits between moves and stays
-/// at the end of the last one. Rotations and services take place during the waits.
+/// The motion of one robot's centre from t = 0 on, committed moves included. The robot waits between moves
+/// and stays at the end of the last one. Rotations and services take place during the waits.
 struct Trajectory {
   Position start{0.0, 0.0};
   std::vector<TimedMove> moves;  // in order of time, each from the end of the previous one
   double cost = 0.0;  // seconds until it rests in the goal pose, the last rotation and service included
   std::vector<Visit> visits = {};  // to goals of Robot::via, after the committed actions
-  /// Seconds: the end of the service at the last goal, if the robot has another radius from then on.
+  /// Seconds: the end of the service at the last goal, if the robot's radius changes then.
   double last_served = kForever;
-  /// Seconds: the plan stops here, at or after the horizon, with goals left. `cost` is then an estimate: it
+  /// Seconds: the plan stops here, at or after the horizon, with goals left. `cost` is then an estimate that
   /// includes the static way that is left.
   std::optional<double> stops_at = {};
-  /// With `stops_at`: the visits to the goals that are left, if nobody is in the way from there on.
+  /// With `stops_at`: the visits to the goals that are left, if no robot is in the way from there on.
   std::vector<Visit> estimated_visits = {};
-  /// With `stops_at`: what is left to do, alone on the static map, takes as long there as where the plan
-  /// begins.
+  /// With `stops_at`: whether the rest of the way, alone on the static map, takes as long from there as from
+  /// the beginning of the plan.
   bool gains_nothing = false;
   double smoothed_by = 0.0;  // seconds by which it costs less than the path that a search has found
   bool is_previous = false;  // the motion of Robot::previous: its actions are those received

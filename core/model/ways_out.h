@@ -1,7 +1,7 @@
 #pragma once
 
-// Zones that are blocked: the maps of robots with these zones; robots inside of zones that they may leave,
-// and goals there.
+// Zones that are blocked: the maps of robots with these zones. Robots inside zones that they may leave, and
+// goals there.
 
 #include <cstddef>
 #include <memory>
@@ -17,8 +17,8 @@
 
 namespace fleetplan::core {
 
-/// The static maps of each robot: the map of the request, with the zones that are blocked for the robot, and
-/// without those that it may leave. Robots with the same zones share theirs.
+/// The static maps of each robot: the map of the request, with the zones that are blocked for the robot.
+/// Another map leaves out the zones that it may leave. Robots with the same zones share their maps.
 class ZoneMaps {
  public:
   /// Makes the maps of so many robots. `map` is not null. If `stop` is met first, the object is not
@@ -33,7 +33,7 @@ class ZoneMaps {
   const std::shared_ptr<const StaticMap>& of(std::size_t robot) const {
     return map_of_.empty() ? maps_.front() : maps_[map_of_[robot]];
   }
-  /// For a robot that leaves: the map without the zones that it may leave.
+  /// The map without the zones that the robot may leave, for a robot that leaves.
   const std::shared_ptr<const StaticMap>& while_leaving(std::size_t robot) const {
     return leaving_map_of_.empty() ? of(robot) : maps_[leaving_map_of_[robot]];
   }
@@ -52,7 +52,7 @@ class ZoneMaps {
 /// Returns the distance of a position from a zone, metres; 0 inside.
 double distance_to_zone(const Zone& zone, const Position& position);
 
-/// The zone that is blocked like a wall, or that may be left, and is nearest to a position.
+/// The zone nearest to a position, among the zones that are blocked like a wall or may be left.
 struct NearestZone {
   std::size_t index = 0;
   double distance = 0.0;  // metres
@@ -62,27 +62,30 @@ std::optional<NearestZone> nearest_blocked_zone(const std::vector<Zone>& zones, 
 std::optional<NearestZone> nearest_zone_to_leave(const std::vector<Zone>& zones, std::size_t robot,
                                                  const Position& position, double reach);
 
-/// The goals of a robot that are put off until a zone is open again: the first one that is inside, and those
-/// that follow it.
+/// The goals of a robot that are put off until a zone is open again: the first goal inside, and all goals
+/// after it.
 struct PostponedGoals {
   std::size_t first = 0;  // number of the goal that is inside
   std::size_t count = 0;  // of goals that are put off
   std::size_t zone = 0;   // index of a zone that it is inside of
 };
 
-/// What zones that may be left change for one robot.
+/// How zones that may be left change the planning of one robot.
 struct Leaving {
   std::optional<PostponedGoals> postponed = {};
-  /// Places on the shortest way out of all such zones, from where the robot's plan begins, which is left out:
-  /// each is straight ahead of the one before, and only the last one is clear of them. Empty if the robot is
-  /// not inside, stays, or has no way out.
+  /// Places on the shortest way out of all such zones, from where the robot's plan begins. The beginning is
+  /// left out. Each place is straight ahead of the place before, and only the last one is clear of the zones.
+  /// Empty if the robot is not inside, stays, or has no way out.
   std::vector<Position> way_out = {};
 };
 
-/// Finds what zones that may be left change for the robots, by robot; an empty list if there are no such
-/// zones. Takes the goals that are put off away from the robots: one that is inside and has no goals left
-/// gets the end of its way out as its last goal; one outside has none, or yields if it has served some
-/// before. `inflation`: metres. Ends early when the stop is met; then the result must not be used.
+/// Finds, for each robot, what zones that may be left change; an empty list if there are no such zones.
+/// Removes the goals that are put off from the robots.
+///
+/// - A robot inside that has no goals left gets the end of its way out as its last goal.
+/// - A robot outside that has no goals left has none, or yields if it has served goals before.
+///
+/// `inflation`: metres. Ends early when `stop` is met; then the result must not be used.
 std::vector<Leaving> find_ways_out(const ZoneMaps& maps, const std::vector<Zone>& zones, double inflation,
                                    std::vector<Robot>& robots, const StopCondition& stop);
 
