@@ -1,6 +1,6 @@
 #pragma once
 
-// What is returned of a plan: only what has passed the check.
+// Only a plan that has passed the check is returned.
 
 #include <functional>
 #include <optional>
@@ -14,8 +14,8 @@
 
 namespace fleetplan::core {
 
-/// What the check says of a plan, or of the one that is used instead; no report if it was not finished, so
-/// that neither must be used.
+/// What the check says of a plan, or of the plan that replaces it. There is no report if the check was not
+/// finished; then neither plan may be used.
 struct CheckOfPlan {
   std::optional<VerifyReport> report;
   std::optional<Plan> instead;
@@ -23,9 +23,9 @@ struct CheckOfPlan {
   const Plan& checked(const Plan& plan) const { return instead ? *instead : plan; }
 };
 
-/// Checks a plan of the planner until `stop` is met. If that does not suffice, another one is used instead,
-/// in which all robots that would move stay at their starts, or at the end of what is committed; `last`,
-/// which is asked then, ends its check.
+/// Checks a plan of the planner until `stop` is met. If the time does not suffice, another plan replaces it:
+/// all robots that would move stay at their starts, or at the end of their commitments. The check of that
+/// plan ends with the stop condition that `last` returns; it is called only then.
 CheckOfPlan check(const Plan& plan, const Problem& problem, const PlanOptions& options,
                   const StopCondition& stop, const std::function<auto()->StopCondition>& last);
 

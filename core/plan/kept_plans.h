@@ -1,6 +1,6 @@
 #pragma once
 
-// Previous plans: which of them hold, and plans that go on with those.
+// Previous plans: which of them hold, and plans that go on with them.
 
 #include <cstddef>
 #include <cstdint>
@@ -34,37 +34,43 @@ struct KeptPlans {
   bool contains(std::size_t robot) const { return !kept.empty() && kept[robot]; }
 };
 
-/// How the robots whose previous plans are left out are taken into account.
+/// What happens to robots whose previous plans are left out, while the other plans are judged.
 enum class LeftOut : std::uint8_t {
   unknown,  // they will be planned, so no other robot conflicts with them here
   stay,     // they stay at their starts or committed ends for ever
 };
 
-/// Returns the previous plans that hold together. Judges them by the checker under the options' inflation,
-/// interval margin, added waits and start overlap. If some violate the rules, those that do so on their own
-/// are left out, and then of two that conflict the one with the lower priority. A robot without a previous
-/// plan, or with an empty one, has one without actions; this holds if it is at rest at its last goal. Takes
-/// as long as a check of the plans, or a few times as long if those left out stay.
+/// Returns the previous plans that hold together. The checker judges them under the options' inflation,
+/// interval margin, added waits and start overlap.
+///
+/// - Plans that violate the rules on their own are left out first.
+/// - Then, of two plans that conflict, the one with the lower priority is left out.
+/// - A robot without a previous plan, or with an empty one, has a plan without actions. It holds if the robot
+///   is at rest at its last goal.
+///
+/// Takes as long as a check of the plans, or a few times as long if the robots left out stay.
 KeptPlans keep_previous_plans(const Problem& problem, const PlanOptions& options, const StopCondition& stop,
                               LeftOut left_out = LeftOut::unknown);
 
-/// Returns those of the kept plans that also hold if all other robots stay at their starts or committed ends.
+/// Returns the kept plans that also hold if all other robots stay at their starts or committed ends.
 KeptPlans keep_if_others_stay(const Problem& problem, const PlanOptions& options, const KeptPlans& previous,
                               const StopCondition& stop);
 
-/// Lets the robots whose plans are kept follow them, except those whose plans conflict with a robot that
-/// stays. Robots with `certain` plans, which hold if all others stay, follow them in any case. Returns the
-/// number of robots that follow a plan.
+/// Lets robots follow their kept plans, unless the plan conflicts with a robot that stays. A plan in
+/// `certain` holds if all others stay; its robot follows it in any case. Returns the number of robots that
+/// follow a plan.
 std::size_t follow_kept_plans(FleetReservations& reservations, const KeptPlans& previous,
                               const KeptPlans& certain);
 
-/// Lets all of `movers`, whose plans are kept, follow them. Takes hardly any time, and no search may follow.
+/// Lets all `movers`, whose plans are kept, follow these plans. Takes hardly any time, and no search may
+/// follow.
 void finish_with_kept_plans(FleetReservations& reservations, const std::vector<std::size_t>& movers);
 
-/// Returns the plan for which no search is needed: parked robots, and robots whose previous plans hold while
-/// all others stay at their starts or committed ends. The others are unplanned for lack of a budget, with
-/// this detail. Takes as long as a few checks of the plans; none of the previous plans is kept if `stop` is
-/// met first.
+/// Returns the plan for which no search is needed. It contains parked robots, and robots whose previous plans
+/// hold while all others stay at their starts or committed ends. The other robots are unplanned for lack of a
+/// budget, with this detail.
+///
+/// Takes as long as a few checks of the plans. Keeps no previous plan if `stop` is met first.
 Plan plan_without_search(const Problem& problem, const PlanOptions& options, const char* detail,
                          const StopCondition& stop);
 

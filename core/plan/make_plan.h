@@ -1,7 +1,7 @@
 #pragma once
 
-// The door of core: chooses the poses of goals that have several, plans, checks the plan, and falls back to
-// one that needs less where time or memory does not suffice.
+// The entry to core. It chooses poses for goals that have several, plans, and checks the plan. If time or
+// memory does not suffice, it falls back to a plan that needs less.
 
 #include <functional>
 #include <optional>
@@ -27,7 +27,7 @@ struct PlanTask {
   std::optional<OpenFleet> open = {};  // goals that may be served at several poses; none: there are none
 };
 
-/// When a plan was made, and how long the parts of that took.
+/// When a plan was made, and how long each part took.
 struct PlanTimes {
   using Time = StopCondition::Clock::time_point;
 
@@ -45,7 +45,7 @@ struct PlanTimes {
   PartTimer parts;
 };
 
-/// A plan and what the check says of it. Refers to values of make_plan().
+/// A plan and the report of its check. Refers to values of make_plan().
 struct CheckedPlan {
   const PlanTask& task;  // with the poses that are chosen
   const Plan& plan;
@@ -54,7 +54,7 @@ struct CheckedPlan {
   const StopCondition& planning;  // the end of planning; what explains the plan has to be found by then
 };
 
-/// Follows a plan while it is made. The thread that called make_plan() calls it and waits for it.
+/// Observes a plan while it is made. The thread that called make_plan() calls it and waits for it.
 class PlanObserver {
  public:
   PlanObserver() = default;
@@ -65,7 +65,7 @@ class PlanObserver {
   /// As Observer::progressed().
   virtual void progressed(const Progress& progress) = 0;
 
-  /// Whether show() is to be called with the current plan, as Observer::wants_plan().
+  /// Whether to call show() with the current plan, see Observer::wants_plan().
   virtual bool wants_plan() = 0;
 
   /// Receives the plan that would be returned now, once it has been checked.
@@ -75,7 +75,7 @@ class PlanObserver {
 /// Makes a plan without checking it: plan() with an executor, or a stub in tests.
 using Planner = std::function<Plan(const Problem&, const PlanOptions&, const StopCondition&, Observer*)>;
 
-/// How a plan is made: with how much time, by which threads, and who follows it.
+/// How a plan is made: how much time there is, which threads work on it, and who observes it.
 struct PlanMeans {
   StopCondition stop;  // the end of planning, unless there are previous plans, see budget.h
   budget::CheckPatience patience;
@@ -85,7 +85,7 @@ struct PlanMeans {
   Planner planner = {};              // empty: plan()
 };
 
-/// A plan that may be used if it has a report: then the check has found what the report says.
+/// A plan that may be used only if it has a report: the result of its check.
 struct MadePlan {
   PlanTask task;  // with the poses that are chosen
   Plan plan;
@@ -99,12 +99,13 @@ struct MadePlan {
 
 /// Makes a plan and checks it:
 ///
-/// 1. If `stop` is met and there are no previous plans, which are kept whatever the budget, nobody moves.
-/// 2. Poses of open goals are chosen by when robots arrive; if that takes too long, those of `task` stay.
-/// 3. plan(), or, if the memory does not suffice, a plan without search.
-/// 4. Robots without a plan give up their poses for others, at most kMaxSecondChoices times, as long as that
+/// 1. If `stop` is met and there are no previous plans, nobody moves. Previous plans are kept whatever the
+///    budget.
+/// 2. Chooses poses of open goals by when robots arrive. If that takes too long, the poses of `task` stay.
+/// 3. Plans with plan(), or without search if the memory does not suffice.
+/// 4. Robots without a plan exchange their poses for others, at most kMaxSecondChoices times, as long as that
 ///    makes more plans.
-/// 5. The check. If it takes too long, robots that would move stay (see check()).
+/// 5. Checks the plan. If it takes too long, robots that would move stay (see check()).
 ///
 /// Throws std::bad_alloc if the process lacks memory, rather than the job (see memory_lacks()).
 MadePlan make_plan(PlanTask task, const PlanMeans& means);

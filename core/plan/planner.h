@@ -10,28 +10,28 @@
 
 namespace fleetplan::core {
 
-/// The detail of a robot for which the memory was not enough (see MemoryAccount).
+/// The detail of a robot that has no plan because the memory was not enough (see MemoryAccount).
 inline constexpr const char* kMemorySpent =
     "The memory for one plan (--max-plan-memory) was spent before a way was found: send fewer robots or a "
     "map "
     "with fewer cells, or raise that limit.";
 
-/// Plans collision-free timed motions for all robots of the problem (paper, Method), or for as many as it can
-/// until the stop condition is met:
+/// Plans collision-free timed motions for all robots of the problem (paper, Method), or for as many as
+/// possible until the stop condition is met:
 ///
-/// 0. Previous plans that hold are kept; the robots that they leave out are planned around them.
+/// 0. Keeps previous plans that hold, and plans the robots without them around these.
 /// 1. Triage: finds the robots that cannot move whatever the others do.
-/// 2. Prioritized planning: a first plan, or a safe partial plan. Robots that make way (Robot::yields) do not
-///    move in vain: moves that the others do not need are undone. New paths are smoothed.
-/// 3. Unavoidable collisions: finds those with committed motion and obstacles that no plan prevents.
+/// 2. Prioritized planning: a first plan, or a safe partial plan. Moves of robots that make way
+///    (Robot::yields) are undone if no other robot needs them. New paths are smoothed.
+/// 3. Unavoidable collisions: finds collisions with committed motion and obstacles that no plan prevents.
 /// 4. Lower bounds of the cost of each robot alone on the map.
 /// 5. Large neighbourhood search, in mode `anytime`: improves the plan until the stop condition is met. Then
-///    vain moves are undone again.
+///    unnecessary moves are undone again.
 /// 6. Collects the trajectories as actions.
 ///
 /// Plans depend only on the problem, the options and the build, unless `deterministic` is false. The
-/// executor's threads make `anytime` faster; neither they nor the observer or the timer, which may be null,
-/// change the plan. The timer is told when `bounds` and `improve` begin.
+/// executor's threads make `anytime` faster. They do not change the plan. Neither do the observer and the
+/// timer, which may be null. The timer is told when `bounds` and `improve` begin.
 Plan plan(const Problem& problem, const PlanOptions& options, const StopCondition& stop, Executor& executor,
           Observer* observer = nullptr, PartTimer* timer = nullptr);
 
