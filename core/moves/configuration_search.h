@@ -17,11 +17,11 @@
 
 namespace fleetplan::core {
 
-/// Where all robots are, by robot: numbers of vertices or places.
+/// Where all robots are: by robot, the number of a vertex or place.
 using Configuration = std::vector<int>;
 
-/// A robot that has to be at a place in the next configuration, together with those of the constraint before.
-/// The first one of a configuration binds nobody.
+/// Binds one robot: in the next configuration, it must be at this place. The constraint before binds other
+/// robots, and so on. The first constraint of a configuration binds no robot.
 struct StepConstraint {
   static constexpr int kNone = -1;
 
@@ -38,18 +38,19 @@ struct ConfigurationLimits {
   std::size_t max_constraints = 0;  // in all configurations together
 };
 
-/// Searches configurations depth-first, from the starts of a fleet to its goals. `Fleet` says what a fleet
-/// and its steps are:
-///  - `Configuration starts()`, `bool is_end(const Configuration&)`;
-///  - `bool is_home(robot, place)`: whether it need not move;
-///  - `bool comes_before(a, b)`: which one of two robots that have waited equally long moves first;
-///  - `void for_each_step(robot, place, visit)`: calls visit(place) for where one step leads to;
-///  - `std::optional<Configuration> next(from, order, constraints, constraint, depth)`: a configuration that
-///    one step leads to, and that meets the constraint; none if there is none or if it finds none. If all
-///    robots are bound, it finds it wherever there is one. `depth`: steps from the starts.
+/// Searches configurations depth-first, from the starts of a fleet to its goals. `Fleet` defines the fleet
+/// and its steps:
 ///
-/// Each configuration is known once, and constraints that bind all robots to any of their steps are made
-/// lazily, so that the search reaches all configurations that such steps lead to, if it may go on.
+/// - `Configuration starts()`, `bool is_end(const Configuration&)`;
+/// - `bool is_home(robot, place)`: whether the robot need not move;
+/// - `bool comes_before(a, b)`: which of two robots moves first if both have waited equally long;
+/// - `void for_each_step(robot, place, visit)`: calls visit(place) for each place that one step reaches;
+/// - `std::optional<Configuration> next(from, order, constraints, constraint, depth)`: a configuration that
+///   one step reaches and that meets the constraint. None if there is none or if it finds none. If all robots
+///   are bound, it finds the configuration whenever there is one. `depth`: steps from the starts.
+///
+/// The search makes each configuration once. It makes constraints lazily, until they bind all robots to each
+/// of their steps. So it reaches every configuration that such steps reach, if it has enough time and memory.
 template <class Fleet>
 class ConfigurationSearch {
  public:
@@ -57,7 +58,7 @@ class ConfigurationSearch {
                       const StopCondition& stop)
       : fleet_(fleet), limits_(limits), random_(random), stop_(stop) {}
 
-  /// The configurations from the starts to the goals; none if there is no way, if the search becomes too
+  /// The configurations from the starts to the goals. None if there is no way, if the search becomes too
   /// large, or if the stop condition is met first.
   std::optional<std::vector<Configuration>> run() {
     add(fleet_.starts(), nullptr);
@@ -88,11 +89,11 @@ class ConfigurationSearch {
   bool has_no_way() const { return open_.empty(); }
 
  private:
-  /// A configuration of the search, and the constraints that have not been tried there yet.
+  /// A configuration of the search, and its constraints that have not been tried yet.
   struct Node {
     Configuration at;
     std::vector<std::int32_t> waited;  // by robot: steps since it was at its goal
-    std::vector<std::size_t> order;    // of robots: those that have waited longest first
+    std::vector<std::size_t> order;    // of robots: the longest waiting come first
     std::vector<StepConstraint> made;  // in the order in which they are tried
     std::size_t next = 0;              // of `made`
     const Node* before = nullptr;
@@ -124,7 +125,8 @@ class ConfigurationSearch {
     open_.push_back(&node);
   }
 
-  /// Makes the constraints that bind the next robot, too: to its place or to one that a step leads to.
+  /// Makes the constraints that also bind the next robot: to its own place, or to a place that one step
+  /// reaches.
   void bind_one_more(Node& node, std::size_t constraint) {
     const std::uint32_t depth = node.made[constraint].depth;
     if (depth == node.at.size()) return;

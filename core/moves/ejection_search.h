@@ -10,21 +10,21 @@
 
 namespace fleetplan::core {
 
-/// Makes way for robots that find no path in a dense crowd, by ejecting few others: their trajectories are to
-/// be removed, and they are planned again. As in guided ejection search (Nagata and Braysy, 2009), robots
+/// Makes way for robots that find no path in a dense crowd. It ejects a few other robots: their trajectories
+/// are removed, and they are planned again. As in guided ejection search (Nagata and Braysy, 2009), robots
 /// that fail often are the last to be ejected.
 class EjectionSearch {
  public:
   EjectionSearch(PlanState& state, Random& random, const StopCondition& stop);
 
-  /// Plans `robot`, which has no reservation, so that it conflicts with few of the others that follow a
+  /// Plans `robot`, which has no reservation, so that it conflicts with few of the other robots that follow a
   /// trajectory (`planned`). Changes no reservation. `failures` counts how often each robot has failed.
   ///
-  /// 1. Ignores an eighth of the others, a quarter, half, and all of them, until there is a path: those with
-  ///    few failures first. A robot for which others were ejected is ignored last for a while, so that two
-  ///    robots do not eject each other for ever.
-  /// 2. Plans again and ignores fewer of those that conflict with the path, as long as there is one. In the
-  ///    end each of them is needed.
+  /// 1. Ignores an eighth of the other robots, a quarter, half, and then all of them, until there is a path.
+  ///    It first ignores robots with few failures. A robot for which others were ejected is ignored last for
+  ///    a while, so that two robots do not eject each other for ever.
+  /// 2. Plans again and ignores fewer of the robots that conflict with the path, as long as there is a path.
+  ///    In the end, every robot that is still ignored has to be.
   SearchResult plan(std::size_t robot, std::vector<std::size_t> planned, const std::vector<int>& failures);
 
  private:

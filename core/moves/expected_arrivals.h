@@ -12,22 +12,21 @@ struct ExpectedOrder {
   bool cut_off = false;  // the stop condition was met before all was considered
 };
 
-/// Orders robots, which have goals, by when each can be expected to come to rest for good; see
-/// rank_by_time().
+/// Orders robots, which have goals, by when each is expected to come to rest for good; see rank_by_time().
 ///
-/// Nobody may pass a robot's goal while it rests there. Those who would pass later and are planned later need
-/// ways around it; if they are planned before it, it cannot arrive until they have passed. So:
+/// A robot that rests at its goal blocks it for all others. Robots that pass later, and are planned later,
+/// need ways around it. If they are planned before it, it cannot arrive until they have passed. So:
 ///
-/// 1. Each robot has a way alone on the static map (CostToGo), which tells when it arrives.
-/// 2. One robot after the other, the soonest first, looks whose goals its way passes after they arrive there.
-///    Unless there is room beside those goals, it chooses another way, for which its own time and what it
-///    costs others is least (A*): to pass a goal costs the time for which its robot has to wait for that. Who
-///    waits already costs less, so that several choose the same way.
-/// 3. A robot whose goal is passed is expected afterwards, and ranks behind those who pass, except where
-///    these wait for it in turn.
+/// 1. Each robot has a way alone on the static map (CostToGo), which gives its arrival.
+/// 2. One robot after the other, the soonest first, looks for goals that its way passes after their robots
+///    have arrived. If there is no room beside these goals, it chooses the way of least cost (A*): its own
+///    time, plus the delay of other robots. Passing a goal delays the goal's robot until the passage. A robot
+///    that waits already adds less delay, so several robots choose the same way.
+/// 3. A robot whose goal is passed is expected after the passage. It ranks behind the robots that pass,
+///    except where they wait for it in turn.
 ///
-/// Where the search spaces of all robots are too much to keep, `robots` stay in their order, or no more ways
-/// are chosen.
+/// If the search spaces of all robots need too much memory, `robots` stay in their order, or no more ways are
+/// chosen.
 ExpectedOrder order_by_expected_arrival(PlanState& state, const PriorityOrder& robots,
                                         const StopCondition& stop);
 

@@ -17,16 +17,16 @@ namespace fleetplan::core {
 /// Whether robots follow a plan in steps.
 enum class StepsOutcome : std::uint8_t {
   followed,
-  /// All that steps reach was searched: they lead to no plan.
+  /// There is no such plan: everything that steps reach was searched.
   none,
-  /// There may be a plan: the search has become as large as it may.
+  /// There may be a plan: the search has reached its size limit.
   limited,
   /// There may be a plan: the time was over.
   cut_off,
 };
 
-/// Plans of the whole fleet in steps: along the rows and columns of a lattice if that suffices, and otherwise
-/// over places. What it has searched it keeps for the next time that the same robots are asked for.
+/// Plans of the whole fleet in steps: along the rows and columns of a lattice if that suffices, otherwise
+/// over places. It keeps what it has searched for the next call with the same robots.
 class FleetSteps {
  public:
   /// With a horizon, the most robots that are planned to their goals all at once.
@@ -36,9 +36,9 @@ class FleetSteps {
   FleetSteps(FleetReservations& reservations, Random& random, ProgressReport& progress)
       : reservations_(reservations), random_(random), progress_(progress) {}
 
-  /// Plans the robots of `order` in steps, among the others as they move, except for the `hopeless` ones,
-  /// which stay. If all of them have a plan in which nobody meets, they follow it;
-  /// if not, no reservation has changed. Takes a part of the time until `stop`.
+  /// Plans the robots of `order` in steps, among the other robots as they move. The `hopeless` robots stay.
+  /// If all of them get a plan without conflicts, they follow it. Otherwise, no reservation changes. Takes a
+  /// part of the time until `stop`.
   StepsOutcome follow(const std::vector<std::size_t>& order, const std::vector<std::size_t>& hopeless,
                       const StopCondition& stop);
 

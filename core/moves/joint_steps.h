@@ -1,6 +1,6 @@
 #pragma once
 
-// Steps of a fleet in which each robot moves while all others rest.
+// Steps of a fleet: one robot moves at a time, while all others rest.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace fleetplan::core {
 
-/// Robots on their places: who would touch whom. Not thread-safe.
+/// Which robots would touch each other, by their places. Not thread-safe.
 class JointSteps {
  public:
   /// `robots` outlive this object.
@@ -32,20 +32,20 @@ class JointSteps {
 
     bool rests() const { return from == to; }
   };
-  /// Whether the moving robot would touch another one that rests at a place.
+  /// Whether the moving robot would touch another robot that rests at a place.
   bool touches(const Move& move, std::size_t other, int place) const;
 
-  /// Whether it would touch any other robot if it makes this step alone. `at`: where all are.
+  /// Whether it would touch any other robot if it makes this step alone. `at`: the places of all robots.
   bool touches_any(std::size_t robot, const StepPlaces::Step& step, const Configuration& at) const;
   bool is_end(const Configuration& at) const;
 
-  /// Which one of two robots has to move first in a step.
+  /// Which of two robots has to move first in a step.
   enum class Order : std::uint8_t { any, first, second, none };
   /// `none`: neither order keeps them apart.
   Order order_of(const Move& first, const Move& second) const;
 
-  /// The robots that move in a step from one configuration to the next, in an order in which they can do so
-  /// one after the other; none if there is no order.
+  /// The robots that move in a step from one configuration to the next, in an order in which they can move
+  /// one after the other. None if there is no such order.
   std::optional<std::vector<std::size_t>> order_of_step(const Configuration& from,
                                                         const Configuration& to) const;
 
@@ -56,8 +56,8 @@ class JointSteps {
 
   const std::vector<StepPlaces>& robots_;
   std::vector<std::vector<float>> start_distance_;  // metres, by robot and robot; kForever if clear
-  std::vector<std::size_t> first_step_;             // by robot, among those of all
-  std::vector<std::size_t> first_place_;            // by robot, among those of all
+  std::vector<std::size_t> first_step_;             // by robot, among the steps of all robots
+  std::vector<std::size_t> first_place_;            // by robot, among the places of all robots
   mutable std::vector<Known> known_;                // by step, then by place; empty if there are too many
 };
 

@@ -7,13 +7,13 @@
 
 namespace fleetplan::core {
 
-/// Tuples of integers of one size, each once, numbered in the order in which they were added.
+/// Tuples of integers of one size. Each is kept once, numbered in the order in which they were added.
 class KnownTuples {
  public:
   explicit KnownTuples(std::size_t size) : size_(size), table_(kFirstTable, kNone) {}
 
   std::size_t count() const { return count_; }
-  /// The numbers of the tuple that was added as the `number`-th one.
+  /// The tuple that was added as the `number`-th one.
   std::vector<int>::const_iterator operator[](std::size_t number) const {
     return numbers_.begin() + static_cast<std::ptrdiff_t>(number * size_);
   }

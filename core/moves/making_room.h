@@ -1,6 +1,6 @@
 #pragma once
 
-// Room for two: where two robots meet, each of them moves aside.
+// Room for two: where two robots meet, both move aside.
 
 #include <cstddef>
 #include <vector>
@@ -12,22 +12,24 @@
 
 namespace fleetplan::core {
 
-/// Plans a few robots of which each is in the way of another one, whatever their order: in a corridor,
-/// whoever is planned first takes the middle. Where the ways of two robots alone on the map meet, or along
-/// the way near there, each of them passes through a place at another side of it. If the second one has no
-/// way then, the first one waits in its place until the second one has passed. The other robots are planned
-/// after both. At last, each robot is planned again as long as it costs less.
+/// Plans a few robots if each of them blocks another, whatever their order. In a corridor, for example, the
+/// robot that is planned first takes the middle.
+///
+/// It takes the ways of two robots alone on the map. Where they meet, or near there along the way, each robot
+/// passes through a place on a different side. If the second robot has no way then, the first one waits in
+/// its place until the second one has passed. The other robots are planned after both. At last, each robot is
+/// planned again as long as it costs less.
 ///
 /// Only robots with one load move aside. Returns whether all of `robots` follow a trajectory; if not, no
 /// reservation has changed. The effort of each search is limited.
 bool make_room(PlanState& state, const std::vector<std::size_t>& robots, const StopCondition& stop,
                ProgressReport& progress);
 
-/// How far a robot that fits at a place may go straight from there, metres, up to `max`. `direction` has
+/// How far a robot that fits at a place may go straight from there, in metres, up to `max`. `direction` has
 /// length 1.
 double room_towards(const View& view, const Position& from, const Position& direction, double max);
 
-/// Plans each of these robots, which follow trajectories, again as long as that costs less; a few times at
+/// Plans each of these robots, which follow trajectories, again as long as that costs less. A few times at
 /// most.
 void replan_for_less(PlanState& state, const std::vector<std::size_t>& robots, const StopCondition& stop);
 

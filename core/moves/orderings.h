@@ -1,7 +1,7 @@
 #pragma once
 
-// Priority orders: the first one, those that follow when a robot fails, and planning in one or more of them
-// with restarts. With repairs, see repair.h.
+// Priority orders: the first order, and the orders that follow when a robot fails. Planning in one or more of
+// them with restarts. For planning with repairs, see repair.h.
 
 #include <cstddef>
 #include <cstdint>
@@ -22,33 +22,35 @@ namespace fleetplan::core {
 /// Robots by index, the highest priority first.
 using PriorityOrder = std::vector<std::size_t>;
 
-/// Where a robot ranks that takes so many seconds to its last goal, shortest first: by that time, but a
-/// faster robot counts as only slightly nearer, and a heavy one (Robot::weight) as so many times nearer
+/// The rank of a robot that takes so many seconds to its last goal; the shortest time comes first. A faster
+/// robot counts as only slightly nearer. A heavy robot (Robot::weight) counts as so many times nearer
 /// (Smith's rule, 1956).
 double rank_by_time(const Itinerary& itinerary, double seconds);
 
-/// Returns the first order of these robots (ascending, with goals), by the options' priority: by their ranks
-/// on straight lines to their goals, as listed, or at random. Shortest first with a horizon, the robot with
-/// the oldest goal comes first, so that nobody is passed over for ever, and those that have arrived come
-/// last, so that they make way. Ties keep the order of the list.
+/// Returns the first order of these robots (ascending, with goals), by the options' priority: shortest first,
+/// as listed, or at random. Shortest first compares ranks on straight lines to the goals. Ties keep the order
+/// of the list.
+///
+/// Shortest first differs with a horizon: the robot whose goal is oldest comes first, so that no robot is
+/// passed over for ever. Robots that have arrived come last, so that they make way.
 PriorityOrder initial_order(const Instance& instance, std::vector<std::size_t> robots, Random& random);
 PriorityOrder initial_order(const std::vector<Itinerary>& all, const PlanOptions& options,
                             std::vector<std::size_t> robots, Random& random);
 
-/// Returns a start delay that may give other robots time to get out of the way, seconds: uniform up to the
-/// lower bound of a random robot of the order.
+/// Returns a random start delay, seconds, that may give other robots time to get out of the way. It is
+/// uniform between 0 and the lower bound of a random robot of the order.
 double random_start_delay(const Instance& instance, const PriorityOrder& order, Random& random);
 
-/// The orders to try, none of them twice (paper, section Prioritized planning).
+/// The orders to try, each at most once (paper, section Prioritized planning).
 class OrderSequence {
  public:
   OrderSequence(PlanOptions::Reordering reordering, PriorityOrder first, Random& random);
 
   const PriorityOrder& current() const { return current_; }
 
-  /// Moves to the next order after `failed` found no path: gives it the highest priority, or shuffles. Where
-  /// raising leads back to an order that has been tried, shuffles as well. Returns false if all orders have
-  /// been tried.
+  /// Moves to the next order after `failed` found no path: gives it the highest priority, or shuffles. Also
+  /// shuffles if raising leads back to an order that has been tried. Returns false if all orders have been
+  /// tried.
   bool advance(std::size_t failed);
 
   /// Moves to a random order, tried or not.
@@ -67,8 +69,8 @@ class OrderSequence {
   std::set<PriorityOrder> tried_;
 };
 
-/// Called when the stop condition of an attempt is met, with the robots that are unsolved and those that are
-/// given up. Returns whether the attempt goes on, with the same reservations; then the stop condition is no
+/// Called when the stop condition of an attempt is met, with the robots that are unsolved or given up.
+/// Returns whether the attempt goes on, with the same reservations. If it does, the stop condition is no
 /// longer met.
 using OnStop =
     std::function<bool(const std::vector<std::size_t>& unsolved, const std::vector<std::size_t>& given_up)>;
@@ -77,18 +79,20 @@ using OnStop =
 struct OrderingResult {
   std::vector<std::size_t> unsolved;  // robots without a trajectory, by priority; to be planned once more
   std::vector<std::size_t> given_up;  // at their starts: no path among robots that stay, or too many failures
-  /// The robots of given_up that have no path even if all others that may move are absent, now and in any
-  /// order.
+  /// The robots of given_up that never have a path: not in any order, even if all other robots that may move
+  /// are absent.
   std::vector<std::size_t> hopeless;
   std::int64_t attempts = 1;               // times that robots were ordered and planned
   bool cut_off = false;                    // the stop condition was met first
   std::optional<StepsOutcome> steps = {};  // of the last plan in steps, if there was any
 };
 
-/// Plans all robots of `order`; whenever one fails, starts again in another order (paper, section Prioritized
-/// planning). Ends when all have a trajectory, all orders have failed, or `stop` is met, and leaves the state
-/// of the attempt that planned the most robots. If all orders fail, tries some random ones in which the first
-/// robot starts late. When `stop` is met, `on_stop` decides, if there is one, whether to go on.
+/// Plans all robots of `order`. Whenever a robot fails, starts again in another order (paper, section
+/// Prioritized planning). Ends when all have a trajectory, all orders have failed, or `stop` is met. Leaves
+/// the state of the attempt that planned the most robots.
+///
+/// If all orders fail, tries some random orders in which the first robot starts late. When `stop` is met,
+/// `on_stop` (if given) decides whether to go on.
 OrderingResult plan_with_restarts(PlanState& state, PriorityOrder order, Random& random,
                                   const StopCondition& stop, ProgressReport& progress,
                                   const OnStop& on_stop = nullptr);

@@ -13,19 +13,21 @@
 
 namespace fleetplan::core {
 
-/// Plans robots all at once, in steps in each of which robots move one after the other while all others rest,
-/// whatever their lattices, radii, loads, goals and zones are, among the other robots' reservations: first
-/// over few places (SparseVertices), then over more of them, in the end over all vertices. Then gives the
-/// steps times (times_of_steps). If that fails for what else moves, searches with times (TimedStepSearch).
+/// Plans robots all at once, in steps, among the reservations of the other robots. In each step, robots move
+/// one after the other while all others rest. Their lattices, radii, loads, goals and zones may differ.
 ///
-/// Complete for steps over vertices, as far as time and memory last, where nothing else moves: if moves of
-/// one robot at a time, each from one vertex to a neighbour while all others rest, lead from the starts to
-/// the goals, the search over all vertices reaches the goals, since there are finitely many configurations,
-/// and it visits each of those that such moves reach. The times always exist then: a robot that waits until
-/// all moves before its own have ended meets nobody.
+/// 1. Plans over few places (SparseVertices), then over more of them, and in the end over all vertices.
+/// 2. Gives the steps times (times_of_steps).
+/// 3. If other moving things prevent this, searches with times (TimedStepSearch).
+///
+/// Complete for steps over vertices where nothing else moves, as far as time and memory last. Suppose that
+/// moves of one robot at a time lead from the starts to the goals, each from one vertex to a neighbour. Then
+/// the search over all vertices reaches the goals: there are finitely many configurations, and it visits
+/// every configuration that such moves reach. The times always exist then: a robot that waits until all
+/// earlier moves have ended meets no robot.
 class PlaceSteps {
  public:
-  /// The most robots: each is compared with each other one.
+  /// The most robots, because all pairs are compared.
   static constexpr std::size_t kMaxRobots = 256;
 
   /// `reservations` and `random` outlive this object.
@@ -36,11 +38,11 @@ class PlaceSteps {
 
   const std::vector<std::size_t>& robots() const { return robots_; }
 
-  /// Goes on with the search until it finds a plan, or `stop` is met. The robots that stay are the same each
+  /// Continues the search until it finds a plan or `stop` is met. The robots that stay must be the same each
   /// time. Returns a trajectory for each of the robots, in their order.
   std::optional<std::vector<Trajectory>> run(const StopCondition& stop);
 
-  /// Whether all configurations were visited that steps over vertices reach.
+  /// Whether every configuration that steps over vertices reach has been visited.
   bool has_no_way() const { return has_no_way_; }
 
  private:

@@ -12,15 +12,17 @@
 
 namespace fleetplan::core {
 
-/// Plans the robots of `movers` (ascending) that have no trajectory in `state` around those that have one.
-/// Robots with a trajectory keep it unless another robot cannot be planned otherwise: then the plan is
-/// repaired (see repair.h), and if that does not plan all robots, it is made anew, which counts if it
-/// plans more.
+/// Plans the robots of `movers` (ascending) that have no trajectory in `state` around the robots that have
+/// one.
 ///
-/// Robots that can follow their trajectories while all others of `movers` stay where they are remain planned
-/// in every case, also if `time` is over before planning begins. `certain` tells by robot which ones these
-/// are. If it is empty, they are the robots that cross no place where another one may have to stay. Leaves
-/// the best safe plan in the state.
+/// Robots with a trajectory keep it unless another robot cannot be planned otherwise. Then the plan is
+/// repaired (see repair.h). If that does not plan all robots, a new plan is made, and used if it plans more
+/// robots.
+///
+/// Some robots can follow their trajectories while all other `movers` stay where they are. These robots
+/// remain planned in every case, even if `time` is over before planning begins. `certain` marks them, by
+/// robot. If it is empty, they are the robots that cross no place where another robot may have to stay.
+/// Leaves the best safe plan in the state.
 PrioritizedResult plan_around_kept(PlanState& state, const std::vector<std::size_t>& movers,
                                    const std::vector<bool>& certain, Random& random, const PlanningTime& time,
                                    ProgressReport& progress);

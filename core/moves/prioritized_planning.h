@@ -15,20 +15,20 @@
 
 namespace fleetplan::core {
 
-/// The outcome of planning all robots. The trajectories are in the PlanState; robots without one stay at
-/// their starts (unless `stop` was met before the first was planned).
+/// The outcome of planning all robots. The trajectories are in the PlanState. Robots without a trajectory
+/// stay at their starts, unless `stop` was met before the first robot was planned.
 struct PrioritizedResult {
   std::vector<Unplanned> unplanned;  // ascending
   std::int64_t attempts = 0;
   bool cut_off = false;  // the stop condition decided something
-  /// With a horizon: a robot that would come and go for ever, as it and others cannot all arrive, however far
-  /// they go.
+  /// With a horizon: a robot that would come and go for ever, because it and others cannot all arrive,
+  /// however far they go.
   struct Shuttling {
     std::size_t robot = 0;
     std::vector<std::size_t> others;  // ascending
   };
   std::optional<Shuttling> shuttling;
-  /// The last plan in steps failed for the size that its search may have: it proves nothing.
+  /// The last plan in steps failed because the search reached its size limit. So it proves nothing.
   bool is_limited = false;
 };
 
@@ -42,14 +42,23 @@ struct PlanningTime {
   static PlanningTime until(const StopCondition& stop);
 };
 
-/// Prioritized planning of `movers` (ascending): one by one in the order of their priorities, each among the
-/// trajectories of those before it; after a failure again with other priorities, by the option `reordering`
-/// (paper, section Prioritized planning). If that plans not all of them, plans them in steps
-/// (lattice_steps.h) or, few of them, so that two make room for each other (making_room.h). If robots are
-/// given up all the same, starts again in random orders until all are planned, the time is over, or nothing
-/// is left to try: when each unplanned robot has no path even if the others are absent, when the option
-/// forbids it, or with few robots when all orders have failed. Without a deadline the number of orders is
-/// limited. Leaves the best safe plan in the state.
+/// Prioritized planning of `movers` (ascending): one robot after the other in the order of their priorities,
+/// each among the trajectories of the robots before it.
+///
+/// 1. After a failure, plans again with other priorities, by the option `reordering` (paper, section
+///    Prioritized planning).
+/// 2. If robots are left, plans all in steps (lattice_steps.h). If only a few robots are left, two robots
+///    make room for each other (making_room.h).
+/// 3. If robots are still given up, starts again in random orders, until all robots are planned, the time is
+///    over, or nothing is left to try.
+///
+/// Nothing is left to try if one of these holds:
+///
+/// - No unplanned robot has a path even if the others are absent.
+/// - The option forbids it.
+/// - There are few robots, and all orders have failed.
+///
+/// Without a deadline, the number of orders is limited. Leaves the best safe plan in the state.
 PrioritizedResult plan_prioritized(PlanState& state, const std::vector<std::size_t>& movers, Random& random,
                                    const PlanningTime& time, ProgressReport& progress);
 

@@ -11,7 +11,7 @@
 
 namespace fleetplan::core {
 
-/// A plan that is safe as it is: robots without a trajectory stay at their starts.
+/// A plan that is safe as it is. Robots without a trajectory stay at their starts.
 struct SafePlan {
   struct Staying {
     std::size_t robot;
@@ -21,16 +21,21 @@ struct SafePlan {
   bool cut_off = false;          // the stop condition decided something
 };
 
-/// How long to look for the path of a robot: `brief` where another attempt at all robots may follow, `none`
-/// to plan no robot that stays.
+/// How much effort a robot's path gets. `brief`: another attempt at all robots may follow. `none`: robots
+/// that stay are not planned.
 enum class Effort : std::uint8_t { none, brief, full };
 
-/// Makes the plan in `state` safe. Robots of `unsolved` may have a trajectory; those of `given_up` stay at
-/// their starts already. First, all robots without a trajectory stay at their starts, and so do robots whose
-/// trajectories conflict with one that stays. Then those that stay are planned again one by one, with growing
-/// effort, as long as that gives a robot a trajectory. When one has left its start, those that only had to
-/// stay because of it follow their earlier trajectories again. The plan is safe after every step; once `stop`
-/// is met, no search starts.
+/// Makes the plan in `state` safe. Robots of `unsolved` may have a trajectory; robots of `given_up` already
+/// stay at their starts.
+///
+/// 1. All robots without a trajectory stay at their starts, and so do robots whose trajectories conflict with
+///    a robot that stays.
+/// 2. The robots that stay are planned again one by one, with growing effort, as long as that gives a robot a
+///    trajectory.
+/// 3. When a robot has left its start, the robots that stayed only because of it follow their earlier
+///    trajectories again.
+///
+/// The plan is safe after every step. Once `stop` is met, no search starts.
 SafePlan make_safe(PlanState& state, const std::vector<std::size_t>& unsolved,
                    const std::vector<std::size_t>& given_up, Effort effort, const StopCondition& stop,
                    ProgressReport& progress);
@@ -41,8 +46,7 @@ struct PlanSnapshot {
   FleetReservations::Snapshot reservations;
 };
 
-/// Returns to the reservations of the plan. Returns whether searches may follow, which is not so when the
-/// time is over.
+/// Returns to the reservations of the plan. Returns whether searches may follow; false when the time is over.
 bool return_to(FleetReservations& reservations, const PlanSnapshot& snapshot, const StopCondition& stop);
 
 struct PartialPlan {
@@ -50,7 +54,7 @@ struct PartialPlan {
   bool cut_off = false;              // the stop condition decided something
 };
 
-/// Returns the reasons of the robots that stay in `state`, and the robots that block them.
+/// Returns, for the robots that stay in `state`, the reasons and the robots that block them.
 PartialPlan explain(PlanState& state, const SafePlan& plan, const StopCondition& stop);
 
 }  // namespace fleetplan::core

@@ -15,12 +15,12 @@
 
 namespace fleetplan::core {
 
-/// Plans robots in steps in each of which one robot moves while all others rest: a best-first search over
+/// Plans robots in steps: in each step, one robot moves while all others rest. A best-first search over
 /// configurations, in which the way that is left counts more than the way so far. With few robots in little
-/// room, it can visit all of them.
+/// room, it can visit all configurations.
 class SingleMoveSearch {
  public:
-  /// How many times as much the way that is left counts as the way so far.
+  /// The weight of the way that is left, relative to the way so far.
   static constexpr float kGreed = 4.0F;
 
   /// `steps` outlive this object.
@@ -28,15 +28,15 @@ class SingleMoveSearch {
 
   enum class Outcome : std::uint8_t {
     found,
-    /// All configurations that such steps reach were visited: they lead to no end.
+    /// There is no plan: all configurations that such steps reach were visited.
     none,
-    /// The search has become as large as it may, or `stop` was met. It may go on.
+    /// The search has reached its size limit, or `stop` was met. It may continue.
     cut_off,
   };
   /// Goes on until so many configurations are known.
   Outcome run(std::size_t max_configurations, const StopCondition& stop);
 
-  /// Once it is found: the configurations from the starts to the goals.
+  /// Once the plan is found: the configurations from the starts to the goals.
   std::vector<Configuration> plan() const;
   /// How many configurations are known.
   std::size_t count() const { return nodes_.size(); }

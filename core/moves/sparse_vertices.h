@@ -10,14 +10,16 @@
 
 namespace fleetplan::core {
 
-/// Some of the vertices of a robot, and straight moves between them: a sparse picture of where it can go, in
-/// which a fleet has far fewer configurations. All ways that matter lead through it: each vertex that can be
-/// reached from the start is within `spacing` metres of a chosen one, the ends of dead ends are chosen first,
-/// and chosen vertices whose neighbourhoods touch are joined along the shortest way over vertices, unless
-/// others join them about as well.
+/// Some of the vertices of a robot, and straight moves between them: a sparse graph of where it can go. A
+/// fleet has far fewer configurations on it. All ways that matter lead through it:
+///
+/// - Each vertex that can be reached from the start is within `spacing` metres of a chosen vertex.
+/// - The ends of dead ends are chosen first.
+/// - Chosen vertices whose neighbourhoods touch are joined along the shortest way over vertices, unless other
+///   vertices join them about as well.
 class SparseVertices {
  public:
-  /// `wanted`: places that are chosen, too, if the robot can come there: where others start and end.
+  /// `wanted`: places that are chosen, too, if the robot can come there: starts and ends of other robots.
   SparseVertices(const Vertices& vertices, const std::vector<int>& required,
                  const std::vector<Position>& wanted, double spacing, const StopCondition& stop);
 

@@ -5,8 +5,8 @@
 
 namespace fleetplan::core {
 
-/// Whether two robots would have to pass each other on a line of vertices that has no branch. Robots on such
-/// a line keep their order, so there is no plan in steps then. False if `stop` is met first.
+/// Whether two robots would have to pass each other on a line of vertices without branches. Robots on such a
+/// line keep their order, so there is then no plan in steps. False if `stop` is met first.
 bool have_to_pass_on_a_line(const StepProblem& problem, const StopCondition& stop);
 
 }  // namespace fleetplan::core

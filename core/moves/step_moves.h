@@ -39,10 +39,10 @@ struct TimedStep {
   StepRest rest;         // after it
 };
 
-/// The moves of the robots that make steps, among what is reserved for all others.
+/// The moves of the robots that make steps, among the reservations of all other robots.
 class StepMoves {
  public:
-  /// All arguments outlive this object. `steps` are those of `robots`.
+  /// All arguments must outlive this object. `steps` belong to `robots`, in their order.
   StepMoves(const FleetReservations& reservations, const std::vector<std::size_t>& robots,
             const JointSteps& steps)
       : instance_(reservations.instance()), table_(reservations.table()), robots_(robots), steps_(steps) {}
@@ -56,18 +56,18 @@ class StepMoves {
     return {steps_.robot(k).at(from).position, steps_.robot(k).at(to).position};
   }
 
-  /// The rest of a robot where its plan begins; none if it cannot stay there. Its visits to goals there, if
-  /// there are any, are added to `visits` (may be null).
+  /// The rest of a robot where its plan begins; none if it cannot stay there. Its visits to goals there are
+  /// added to `visits`, which may be null.
   std::optional<StepRest> begin(std::size_t k, std::vector<Visit>* visits) const;
 
-  /// Lets a robot that rests be served at the goals of these stages. Returns false if it cannot rest there
-  /// for as long.
+  /// Serves a robot that rests at the goals of these stages. Returns false if it cannot rest there long
+  /// enough.
   bool serve(std::size_t k, std::uint32_t stage, std::uint32_t end, StepRest& rest,
              std::vector<Visit>* visits) const;
 
-  /// Calls visit(TimedStep) for the earliest move in each of the safe intervals of the place that a step
-  /// leads to, in their order, until it returns true. `after_others`, `before_others`: seconds; it departs no
-  /// sooner and has arrived no later. `earliest`: seconds; it does not turn sooner.
+  /// Calls visit(TimedStep) for the earliest move into each safe interval of the place that a step leads to,
+  /// in their order, until it returns true. `after_others`, `before_others`: seconds; the robot departs no
+  /// sooner, and arrives no later. `earliest`: seconds; the robot does not turn sooner.
   template <class Visitor>
   void for_each_move(std::size_t k, int from, int to, const StepRest& rest, double earliest,
                      double after_others, double before_others, const Visitor& visit) const;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Where a robot may rest between the steps of a fleet, and its steps.
+// Where a robot may rest between the steps of a fleet, and its steps from there.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,8 +16,8 @@
 namespace fleetplan::core {
 
 /// The places of one robot, and the steps between them: straight moves that walls, zones and the robots that
-/// stay leave free. A place is a vertex in a stage of the way, so that a step to the vertex of the stage's
-/// goal leads to the next stage; all of them can be reached from the start.
+/// stay leave free. A place is a vertex in a stage of the way. So a step to the vertex of a stage's goal
+/// leads to the next stage. All places can be reached from the start.
 struct StepPlaces {
   struct Step {
     int to = -1;
@@ -42,15 +42,15 @@ struct StepPlaces {
     const std::size_t end = k + 1 < places.size() ? places[k + 1].first : steps.size();
     return {steps.data() + places[k].first, end - places[k].first};
   }
-  /// Whether a way leads from there to the end.
+  /// Whether a way leads from this place to the end.
   bool has_way(int place) const { return at(place).to_go < static_cast<float>(kForever); }
-  /// Whether a robot that is there has served all goals, and may stay.
+  /// Whether a robot at this place has served all goals and may stay.
   bool is_end(int place) const { return last_goal >= 0 ? place == last_goal : at(place).stage == last_stage; }
 };
 
-/// Returns the places of these robots, in their order, among the ones that stay; none if a robot has no way
-/// to its goals, if there are too many places, or if `stop` is met first. `sparse`: places are about so far
-/// from each other as the widest two robots in contact, times this; 0: all vertices are places.
+/// Returns the places of these robots, in their order, among the robots that stay. None if a robot has no way
+/// to its goals, if there are too many places, or if `stop` is met first. `sparse` sets the distance between
+/// places: the distance of the widest two robots in contact, times `sparse`. 0: all vertices are places.
 std::optional<std::vector<StepPlaces>> places_of_steps(const FleetReservations& reservations,
                                                        const std::vector<std::size_t>& robots, double sparse,
                                                        const StopCondition& stop);

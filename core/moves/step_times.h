@@ -12,26 +12,28 @@
 
 namespace fleetplan::core {
 
-/// Steps of robots, from each configuration to the next.
+/// The steps of robots from each configuration to the next.
 struct StepSequence {
   std::vector<Configuration> configurations;
   std::vector<double> departures = {};  // seconds: nobody sets out sooner, by step; empty: at any time
   double earliest = 0.0;                // seconds: nobody turns sooner
 };
 
-/// Gives the steps of robots times, as a temporal plan graph does (Hönig et al., ICAPS 2016): in the order of
-/// the steps, each robot sets out as soon as it meets nobody who moves before it, and neither obstacles nor
-/// what is reserved in the table for other robots. `robots` are those of the steps; what is reserved for them
-/// does not count.
+/// Gives the steps of robots times, as a temporal plan graph does (Hönig et al., ICAPS 2016). In the order of
+/// the steps, each robot sets out as soon as it meets
 ///
-/// Returns a trajectory for each of the robots, in their order; none if a robot would have to be elsewhere
-/// at some time, or if `stop` is met first.
+/// - no robot that moves before it,
+/// - no obstacle,
+/// - and nothing that is reserved in the table for other robots.
+///
+/// `robots` make the steps; their own reservations do not count. Returns a trajectory for each of the robots,
+/// in their order. None if a robot would have to be elsewhere at some time, or if `stop` is met first.
 std::optional<std::vector<Trajectory>> times_of_steps(FleetReservations& reservations,
                                                       const std::vector<std::size_t>& robots,
                                                       const JointSteps& steps, const StepSequence& sequence,
                                                       const StopCondition& stop);
 
-/// When obstacles, committed motion and all robots but these have come to rest, seconds; 0 if nothing else
+/// When obstacles, committed motion and all robots but these have come to rest, seconds. 0 if nothing else
 /// moves.
 double rest_of_others(const FleetReservations& reservations, const std::vector<std::size_t>& robots);
 

@@ -17,27 +17,28 @@
 
 namespace fleetplan::core {
 
-/// Plans robots in steps in each of which one robot moves while all others rest, among what moves besides
-/// them: obstacles, committed motion, robots that keep their plans. This is safe-interval path planning
-/// (Phillips and Likhachev, ICRA 2011) of all of them as one: a place and a safe interval there for each
-/// robot, reached as early as possible. A best-first search, in which the way that is left counts more than
-/// the way so far.
+/// Plans robots in steps among other moving things: obstacles, committed motion, robots that keep their
+/// plans. In each step, one robot moves while all others rest.
+///
+/// This is safe-interval path planning (Phillips and Likhachev, ICRA 2011) of all robots as if they were one.
+/// A node has, for each robot, a place and a safe interval there, and is reached as early as possible. A
+/// best-first search, in which the way that is left counts more than the way so far.
 class TimedStepSearch {
  public:
-  /// All arguments outlive this object. `steps` are those of `robots`.
+  /// All arguments must outlive this object. `steps` belong to `robots`, in their order.
   TimedStepSearch(FleetReservations& reservations, const std::vector<std::size_t>& robots,
                   const JointSteps& steps);
 
   using Outcome = SingleMoveSearch::Outcome;
-  /// Goes on until so many nodes are known. What is reserved for other robots is the same each time.
+  /// Continues until so many nodes are known. The reservations of other robots must be the same each time.
   Outcome run(std::size_t max_nodes, const StopCondition& stop);
 
-  /// Once it is found: the steps from the starts to the goals.
+  /// Once the plan is found: the steps from the starts to the goals.
   StepSequence plan() const;
 
  private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFF;
-  /// Robots at their places, before the next one moves.
+  /// The places of all robots before the next one moves.
   struct Node {
     std::uint32_t before = kNone;
     std::uint32_t tuple = 0;      // number of the places and safe intervals

@@ -1,7 +1,6 @@
 #pragma once
 
-// Robots that yield (Robot::yields): when they have served their own goals, they may move once more to make
-// way for others.
+// Robots that yield (Robot::yields). After their own goals, they may move once more to make way for others.
 
 #include <cstddef>
 
@@ -12,15 +11,15 @@ namespace fleetplan::core {
 /// Whether robots of the problem yield.
 bool any_yields(const Instance& instance);
 
-/// Plans a robot as PlanState::search() does, as if each planned robot that yields were gone as soon as it
-/// has served its own goals and stood there for the start safe interval. No trajectory if there are no such
-/// robots. Afterwards all reservations are as they were.
+/// Plans a robot as PlanState::search() does, but past robots that yield. A planned robot that yields counts
+/// as gone once it has served its own goals and stood there for the start safe interval. No trajectory if
+/// there are no such robots. Afterwards, all reservations are as before.
 SearchResult plan_past_yielding(PlanState& state, std::size_t robot, const SearchSettings& settings,
                                 const StopCondition& stop);
 
-/// Plans a robot that yields and has a trajectory anew, so that it makes way for `other`, which has no
-/// reservation: it does not end at the goal of `other` that is nearest to where it ends now. Afterwards all
-/// reservations are as they were.
+/// Plans a robot that yields and has a trajectory again, so that it makes way for `other`, which has no
+/// reservation. The robot does not end at the goal of `other` that is nearest to its present end. Afterwards,
+/// all reservations are as before.
 SearchResult plan_making_way(PlanState& state, std::size_t robot, std::size_t other,
                              const SearchSettings& settings, const StopCondition& stop);
 
