@@ -21,39 +21,45 @@ struct NarrowPlace {
 
 /// Finds out whether obstacles and robots that stay for ever close off a robot's goal or its start.
 ///
-/// On its way the robot's centre crosses borders between cells. Two cells are joined if a point of their
-/// common border keeps the distance that the robot needs from obstacles and from the robots that stay. Cells
-/// are searched from the start and from the goal in turns, so the effort is that of the smaller enclosed
-/// area. A robot that is closed off has no path, whatever the other robots do. One that is not may have none
-/// either, as the inside of a cell is not examined.
+/// On its way, the robot's centre crosses borders between cells. Two cells are joined if the robot can cross
+/// their common border: one point of it is far enough from obstacles and from the robots that stay. Cells are
+/// searched from the start and from the goal in turns, so the effort depends on the smaller enclosed area.
+///
+/// A robot that is closed off has no path, whatever the other robots do. A robot that is not closed off may
+/// have no path either, because the insides of cells are not examined.
 class Enclosure {
  public:
   enum class Answer : std::uint8_t { open, closed, unknown };
   struct Result {
     Answer answer = Answer::unknown;
-    /// If closed: the robots without which the way would be open, none of them superfluous; ascending. Empty
-    /// if obstacles alone close the way.
+    /// If closed: the robots that must all be there to close the way, ascending. Without any one of them, the
+    /// way would be open. Empty if obstacles alone close the way.
     std::vector<std::size_t> robots;
   };
 
   /// `robot` has a goal; `staying` are the robots that stay where their plans would begin. `instance` and
-  /// `stop` outlive this object.
+  /// `stop` must outlive this object.
   Enclosure(const Instance& instance, std::size_t robot, const std::vector<std::size_t>& staying,
             const StopCondition& stop);
 
-  /// Finds out whether the robot is closed off. The answer is unknown after `max_steps` steps, about 50 ns
-  /// each but for many disks near one border, and if the stop condition is met first. To find the robots may
-  /// take a few times as many; beyond that, or after the stop, more robots than necessary are returned, or
-  /// not all of them.
+  /// Finds out whether the robot is closed off. The answer is unknown after `max_steps` steps, or if the stop
+  /// condition is met first. A step takes about 50 ns, or more if many disks are near one border.
+  ///
+  /// Finding the robots may take a few times as many steps. Beyond that, or after the stop, the result has
+  /// more robots than necessary, or not all of them.
   Result find(std::int64_t max_steps);
 
   /// Returns the width of the widest way between obstacles, up to `limit` metres; at least what the robot
   /// needs. None if no way is found within `max_steps` steps, or before the stop condition is met.
   std::optional<double> widest_way(double limit, std::int64_t max_steps);
 
-  /// Returns the narrowest place of the widest way between obstacles, for a robot that they close off, which
-  /// is found in floods of at most `max_steps` steps. Takes the steps from `left`. None if even a point has
-  /// no way, if a flood takes more steps or none are left, or if the stop condition is met first.
+  /// Returns the narrowest place of the widest way between obstacles, for a robot that they close off. Finds
+  /// it by floods of at most `max_steps` steps each, and subtracts the steps from `left`. None in these
+  /// cases:
+  ///
+  /// - Not even a point has a way.
+  /// - A flood takes more steps, or no steps are left.
+  /// - The stop condition is met first.
   std::optional<NarrowPlace> narrowest_place(std::int64_t max_steps, std::int64_t& left);
 
  private:

@@ -12,14 +12,19 @@
 
 namespace fleetplan::core {
 
-/// The reservations of all robots while a plan is made, and who conflicts with whom.
+/// The reservations of all robots while a plan is made, and the conflicts between robots.
 ///
-/// The committed motion of every robot is always reserved. After it a robot is in one of four states: it
-/// follows a trajectory, stays in its place for ever, holds its place for some time, or has no reservation
-/// (the initial state). Its place is its start, or the end of its committed motion.
+/// The committed motion of every robot is always reserved. After it, a robot is in one of four states:
+///
+/// - It follows a trajectory.
+/// - It stays in its place for ever.
+/// - It holds its place for some time.
+/// - It has no reservation (the initial state).
+///
+/// Its place is its start, or the end of its committed motion.
 class FleetReservations {
  public:
-  /// Called when a robot stops staying for ever; none if that may be so for any of them.
+  /// Called with the robot that no longer stays for ever; with none if it may be any robot.
   using OnLeave = std::function<void(std::optional<std::size_t> robot)>;
 
   /// `instance` outlives this object.
@@ -30,7 +35,7 @@ class FleetReservations {
   /// Each of these replaces the robot's reservation. A trajectory begins with the committed motion.
   void follow(std::size_t robot, Trajectory trajectory);
   void stay_in_place(std::size_t robot);
-  /// For so many seconds from the end of the committed motion on; kForever: it stays.
+  /// Holds the place for so many seconds after the committed motion. kForever: the robot stays.
   void reserve_place(std::size_t robot, double seconds);
   void remove(std::size_t robot);
 
@@ -38,17 +43,17 @@ class FleetReservations {
   const std::optional<Trajectory>& trajectory(std::size_t robot) const {
     return reserved_.trajectories[robot];
   }
-  /// For how many seconds from the end of its committed motion on the robot reserves its place; 0 if it
-  /// follows a trajectory or has no reservation, kForever if it stays.
+  /// How long the robot reserves its place after its committed motion, seconds. 0 if it follows a trajectory
+  /// or has no reservation; kForever if it stays.
   double holds_place_for(std::size_t robot) const { return reserved_.holds_place_for[robot]; }
   bool stays(std::size_t robot) const { return holds_place_for(robot) == kForever; }
   /// The number of robots that follow a trajectory.
   std::size_t planned_count() const { return planned_count_; }
   bool any_stays() const { return staying_count_ > 0; }
-  /// The robots that stay, ascending, without those that are ignored.
+  /// The robots that stay, ascending. Robots that are ignored are left out.
   std::vector<std::size_t> staying_robots() const;
 
-  /// The reservations of all robots, to return to them.
+  /// The reservations of all robots, to return to later.
   struct Snapshot {
     std::vector<std::optional<Trajectory>> trajectories;
     std::vector<double> holds_place_for;  // seconds, see holds_place_for()
@@ -56,18 +61,20 @@ class FleetReservations {
   Snapshot snapshot() const { return reserved_; }
   /// Replaces all reservations.
   void restore(Snapshot wanted);
-  /// Replaces them, but not in the table of the searches, which takes hardly any time. Until resume() or
-  /// restore(), only trajectories and places may be asked for: no search and no question about conflicts.
+  /// Replaces the reservations, but not in the table of the searches, so it takes hardly any time. Until
+  /// resume() or restore(), only trajectories and places may be asked for. No search and no question about
+  /// conflicts is allowed.
   void set_without_table(Snapshot wanted);
-  /// Puts what set_without_table() has set into the table of the searches, too.
+  /// Also puts into the table of the searches what set_without_table() has set.
   void resume();
 
-  /// The robots whose reservations conflict with the trajectory, ascending. Committed motion is left out, of
-  /// this robot and of the others: it does not change.
+  /// The robots whose reservations conflict with the trajectory, ascending. Committed motion of this robot
+  /// and of the others is left out, because it does not change.
   std::vector<std::size_t> conflicting_robots(std::size_t robot, const Trajectory& trajectory) const;
-  /// The robots whose committed motion conflicts with what follows the robot's own commitment, ascending.
+  /// The robots whose committed motion conflicts with the trajectory after this robot's own commitment,
+  /// ascending.
   std::vector<std::size_t> robots_committed_against(std::size_t robot, const Trajectory& trajectory) const;
-  /// The robots whose reservations conflict with the robot's staying, ascending; committed motion is left
+  /// The robots whose reservations conflict with the robot if it stays, ascending. Committed motion is left
   /// out.
   std::vector<std::size_t> robots_crossing_place(std::size_t robot) const;
 
@@ -82,12 +89,12 @@ class FleetReservations {
     is_ignored_[robot] = ignored;
   }
   bool is_ignored(std::size_t robot) const { return is_ignored_[robot]; }
-  /// Reserves only what comes before `t` (seconds) of the trajectory that the robot follows.
+  /// Reserves only the part before `t` (seconds) of the trajectory that the robot follows.
   void shorten(std::size_t robot, double t);
   /// Undoes shorten().
   void lengthen(std::size_t robot);
-  /// Reserves the place of a goal (by its position in Itinerary::goals) for a robot without a reservation:
-  /// for ever, from so late on that others may leave before. remove() undoes that.
+  /// Reserves the place of a goal for ever, for a robot without a reservation. `goal` is its position in
+  /// Itinerary::goals. The reservation begins so late that others can leave before. remove() undoes it.
   void reserve_goal(std::size_t robot, std::size_t goal);
 
  private:
@@ -104,7 +111,7 @@ class FleetReservations {
   std::size_t staying_count_ = 0;
 };
 
-/// While it lives, searches and questions about conflicts leave out the reservations of some robots.
+/// During its lifetime, searches and questions about conflicts leave out the reservations of some robots.
 class IgnoredRobots {
  public:
   IgnoredRobots(FleetReservations& reservations, std::vector<std::size_t> robots)
@@ -120,7 +127,7 @@ class IgnoredRobots {
 
  private:
   FleetReservations& reservations_;
-  std::vector<std::size_t> robots_;  // those that were not left out before
+  std::vector<std::size_t> robots_;  // the robots that were not ignored before
 };
 
 /// The largest disk of each robot at any time, by robot.

@@ -15,7 +15,7 @@
 
 namespace fleetplan::core {
 
-/// Plans one robot among the reservations of the others (paper, section Prioritized planning): the
+/// Plans one robot among the reservations of the others (paper, section Prioritized planning). It has the
 /// reservations, what is known of the ways on the map, and what searches keep.
 class PlanState {
  public:
@@ -30,29 +30,29 @@ class PlanState {
   StaticWays& ways() { return ways_; }
   const StaticWays& ways() const { return ways_; }
 
-  /// Plans a robot that has a goal and no reservation. Afterwards all reservations are as they were.
+  /// Plans a robot that has a goal and no reservation. Afterwards, all reservations are as before.
   SearchResult plan(std::size_t robot, const SearchSettings& settings, const StopCondition& stop);
-  /// Plans a robot as plan() does, without the reservations of the robots of `ignored`.
+  /// Plans a robot as plan() does, but ignores the reservations of the robots of `ignored`.
   SearchResult plan_ignoring(std::size_t robot, const std::vector<std::size_t>& ignored,
                              const SearchSettings& settings, const StopCondition& stop);
-  /// Plans a robot as plan() does, but does not ask during the search whether robots that stay close it off:
-  /// for callers that change what searches meet of the others.
+  /// Plans a robot as plan() does, but does not ask during the search whether robots that stay close it off.
+  /// For callers that change which reservations the search sees.
   SearchResult search(std::size_t robot, const SearchSettings& settings, const StopCondition& stop);
-  /// Plans a robot as plan() does, to these goals instead of its own. It has one load.
+  /// Plans a robot as plan() does, to these goals instead of its own goals. The robot has one load.
   SearchResult plan_to(std::size_t robot, std::vector<Goal> goals, const SearchSettings& settings,
                        const StopCondition& stop);
-  /// Plans a robot that follows a trajectory as plan() does, among the other ones. If that finds a
+  /// Plans a robot that follows a trajectory again, as plan() does, among the other robots. If there is a
   /// trajectory, the robot follows it instead.
   SearchResult replan(std::size_t robot, const SearchSettings& settings, const StopCondition& stop);
   /// The trajectory of the robot alone on the map; it stays in its place if there is none.
   Trajectory plan_alone(std::size_t robot, const StopCondition& stop);
 
-  /// With a horizon, this robot is planned beyond it from now on, to its goals, past all robots that have
-  /// arrived and are not planned yet: no later than by its previous plan if possible. Meanwhile, those robots
-  /// stay in their places. When a search finds no such way, it searches up to the horizon, as do all later
-  /// ones.
+  /// With a horizon: from now on, this robot is planned to its goals, beyond the horizon. It is planned past
+  /// all robots that have arrived and are not planned yet; these stay in their places meanwhile. It arrives
+  /// no later than by its previous plan, if possible. When a search finds no such way, it searches up to the
+  /// horizon, and so do all later searches.
   void set_whole_way_of(std::size_t robot) { whole_way_of_ = robot; }
-  /// None as well if it has no such way.
+  /// Also none if the robot has no such way.
   const std::optional<std::size_t>& whole_way_of() const { return whole_way_of_; }
 
   /// What searches keep for later.

@@ -12,7 +12,8 @@
 
 namespace fleetplan::core {
 
-/// Reports the progress of planning to an observer, if there is one, and counts which methods planned whom.
+/// Reports the progress of planning to an observer, if there is one. Counts which methods planned which
+/// robots.
 class ProgressReport {
  public:
   /// Reports the robots that follow a trajectory as planned. `observer` may be null.
@@ -45,7 +46,7 @@ class ProgressReport {
     all.served += robots.served;
     all.could_not_serve += robots.could_not_serve;
   }
-  /// Counts robots that were to be planned one after the other; those that follow a trajectory are served.
+  /// Counts robots that were to be planned one after the other. Robots that follow a trajectory are served.
   void count_by_priorities(const std::vector<std::size_t>& robots) {
     const auto planned = std::count_if(robots.begin(), robots.end(), [&](std::size_t robot) {
       return reservations_.trajectory(robot).has_value();

@@ -19,17 +19,17 @@
 namespace fleetplan::core {
 
 /// The search spaces of the robots, kept from search to search as far as there is memory. Others are
-/// discarded, and computed again when they are needed: those first that are expected to be used last, then
-/// those used least recently.
+/// discarded, and computed again when needed. Spaces that are expected to be used last are discarded first;
+/// then those used least recently.
 class SearchSpaces {
  public:
   /// `instance` outlives this object.
   explicit SearchSpaces(const Instance& instance);
 
-  /// Returns the search space of a robot, valid until the next call for another robot; null if `stop` is met
+  /// Returns the search space of a robot, valid until the next call for another robot. Null if `stop` is met
   /// before it is made.
   SearchSpace* of(std::size_t robot, const StopCondition& stop);
-  /// Tells after how many uses of others the space of a robot will be used next. Holds until then.
+  /// Tells when the space of a robot will be used next: after so many uses of other spaces. Holds until then.
   void expect_use(std::size_t robot, std::int64_t uses) { entries_[robot].last_use = -uses; }
   void discard_all();
   /// How many spaces were discarded so far for lack of memory.
@@ -49,18 +49,18 @@ class SearchSpaces {
   std::int64_t discarded_ = 0;
 };
 
-/// What searches keep for later ones: the search spaces of robots, and the arrays of a search. When the job's
-/// memory is short (see MemoryAccount), it is given up.
+/// What searches keep for later searches: the search spaces of robots, and the arrays of a search. It is
+/// freed when the job's memory is short (see MemoryAccount).
 class SearchMemory {
  public:
   /// The arguments outlive this object.
   SearchMemory(const Instance& instance, const ReservationTable& table) : spaces_(instance), search_(table) {}
 
-  /// Returns the search space of a robot, valid until the next call for another robot; null if `stop` is met
+  /// Returns the search space of a robot, valid until the next call for another robot. Null if `stop` is met
   /// before it is made.
   SearchSpace* space_of(std::size_t robot, const StopCondition& stop) { return spaces_.of(robot, stop); }
-  /// Tells after how many uses of others the search space of a robot will be used next, so that others are
-  /// discarded before it, or it before others.
+  /// Tells when the search space of a robot will be used next: after so many uses of other spaces. This
+  /// decides which spaces are discarded first.
   void expect_use(std::size_t robot, std::int64_t uses) { spaces_.expect_use(robot, uses); }
   static constexpr std::int64_t kHardlyEver = std::numeric_limits<std::int64_t>::max();
   /// How many search spaces were discarded so far for lack of memory.
@@ -81,7 +81,7 @@ class SearchMemory {
     return otherwise;
   }
 
-  /// Gives up what is kept, if memory is short.
+  /// Frees what is kept, if memory is short.
   void relieve() {
     if (is_short_of_memory()) release();
   }

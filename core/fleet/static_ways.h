@@ -25,41 +25,43 @@ struct Way {
   std::vector<std::size_t> closed_by;  // see Enclosure::Result; none if obstacles do it alone
   std::optional<double> widest;        // metres; of the way between obstacles that the lattice misses
 
-  /// Whether there is none as long as the same robots stay.
+  /// Whether there is no way as long as the same robots stay.
   bool none() const { return kind == Kind::not_on_lattice || kind == Kind::closed; }
 };
 
-/// What is known of the ways of robots past obstacles and robots that stay, whatever the others do. It is
-/// found out when it is first asked for, and kept.
+/// What is known of the ways of robots past obstacles and robots that stay, whatever the other robots do. It
+/// is computed when it is first asked for, and kept.
 class StaticWays {
  public:
-  /// The arguments outlive this object. The reservations tell it when a robot that stayed leaves:
+  /// The arguments must outlive this object. When a robot that stayed leaves, the reservations call
   /// forget_closed_by_robots().
   StaticWays(const FleetReservations& reservations, SearchMemory& memory);
 
   /// Whether obstacles allow the robot a move from its place; true if `stop` is met first.
   bool can_leave_place(std::size_t robot, const StopCondition& stop);
-  /// Whether they allow it a move to its last goal, or it begins there; true if `stop` is met first.
+  /// Whether obstacles allow the robot a move to its last goal, or it begins there. True if `stop` is met
+  /// first.
   bool can_enter_last_goal(std::size_t robot, const StopCondition& stop);
-  /// Whether the robot has a way to its goal past obstacles and, without a horizon, the robots that stay;
-  /// unknown if `stop` is met first, or if that takes more than `max_expansions` expansions of a search on
-  /// the map.
+  /// Whether the robot has a way to its goal past obstacles and, without a horizon, past the robots that
+  /// stay. Unknown if `stop` is met first, or if a search on the map needs more than `max_expansions`
+  /// expansions.
   const Way& way_to_goal(std::size_t robot, std::int64_t max_expansions, const StopCondition& stop);
   /// What is known of that way.
   const Way& way_to_goal(std::size_t robot) const { return ways_[robot]; }
-  /// Whether obstacles and robots that stay are found to close off the robot, with an effort that suits a
-  /// search of so many expansions. If so, way_to_goal() knows it from now on. False if `stop` is met first.
+  /// Whether obstacles and robots that stay are found to close off the robot. The effort suits a search of so
+  /// many expansions. If true, way_to_goal() knows it from now on. False if `stop` is met first.
   bool is_closed_off(std::size_t robot, std::int64_t expansions, const StopCondition& stop);
 
-  /// Whether the way to the robot's goal, alone on the map, takes longer than any plan may.
+  /// Whether the way to the robot's goal, alone on the map, takes longer than the longest plan.
   bool takes_too_long(std::size_t robot, const StopCondition& stop);
-  /// Estimates its cost, alone on the map, seconds; kForever if that is 0, or if `stop` is met first.
+  /// Estimates the robot's cost alone on the map, seconds. kForever if the cost is 0, or if `stop` is met
+  /// first.
   double estimated_alone(std::size_t robot, const StopCondition& stop);
   /// Expansions of searches on the map, for way_to_goal().
   std::int64_t map_expansions() const { return map_expansions_; }
 
-  /// Forgets the ways that robots close, but for that of `left`, a robot that stayed and does so no longer:
-  /// it is not in its own way.
+  /// Forgets the ways that robots close. Keeps the way of `left`, a robot that no longer stays: it does not
+  /// block itself.
   void forget_closed_by_robots(std::optional<std::size_t> left);
   /// Forgets the way of this robot if robots close it.
   void forget_if_closed_by_robots(std::size_t robot);
