@@ -13,7 +13,7 @@
 
 namespace fleetplan::core {
 
-/// Asked by a long search whether it can end, because there is no path.
+/// A long search asks it whether it can end because there is no path.
 class NoPathTest {
  public:
   NoPathTest() = default;
@@ -30,19 +30,19 @@ struct SearchSettings {
   double heuristic_weight = 1.1;  // >= 1; weight of h in f = g + weight * h (weighted A*; Pohl, 1970)
   double suboptimality = 0.01;    // accepts a path to the goal that costs at most (1 + this) * the smallest f
   double suboptimality_growth = 1e-4;  // added to `suboptimality` with every expansion
-  /// An arrival also counts as dominated, whatever its heading, if it is later than another one in the same
-  /// safe interval, or earlier by less than the time to translate by this many lattice spacings. 0: exact
-  /// dominance.
+  /// Relaxes dominance between arrivals in the same safe interval, whatever their heading. An arrival also
+  /// counts as dominated if it is later than another, or earlier by less than a slack. The slack is the time
+  /// to translate by this many lattice spacings. 0: exact dominance.
   double dominance_slack = 0.2;
-  /// Seconds: a path may also end from this time on wherever the robot may rest for good, at the estimated
-  /// cost of its static way from there. kForever: only at the goal.
+  /// Seconds: from this time on, a path may also end wherever the robot may rest for good. It then costs the
+  /// estimate of its static way from there in addition. kForever: a path ends only at the goal.
   double horizon = kForever;
   double start_delay = 0.0;  // seconds, >= 0; the robot stays where it begins at least this long
   /// Search again with exact dominance if the quick search finds nothing. The quick search applies
-  /// `dominance_slack`, and keeps only one label per safe interval while f is below the time from which the
-  /// goal is free.
+  /// `dominance_slack`. While f is below the time from which the goal is free, it keeps only one label per
+  /// safe interval.
   bool thorough = true;
-  /// Limits the expansions of both searches together; a search that needs more ends as not complete.
+  /// Limits the expansions of both searches together. A search that needs more ends as not complete.
   std::int64_t max_expansions = std::numeric_limits<std::int64_t>::max();
   /// May be null. Asked after kFirstTest expansions and whenever their number has doubled.
   NoPathTest* no_path_test = nullptr;
@@ -52,9 +52,9 @@ struct SearchSettings {
 /// The result of a search for one robot.
 struct SearchResult {
   std::optional<Trajectory> trajectory;
-  /// False if there is no trajectory because the stop condition or max_expansions ended the search. If it is
-  /// true and the search was `thorough`, no trajectory costs less than the bound (except those that dominance
-  /// loses, see docs/proofs.md).
+  /// False if there is no trajectory because the stop condition or max_expansions ended the search. If true,
+  /// and the search was `thorough`, no trajectory costs less than the bound, except for trajectories that
+  /// dominance loses (docs/proofs.md).
   bool complete = true;
   std::int64_t expansions = 0;
 };
@@ -66,10 +66,12 @@ struct SearchResult {
 /// Terms. A *stage* leads to the next goal of the robot (Goals). A *place* is a vertex in a stage, with its
 /// safe intervals. A *label* is a settled node of the search: a place, one of its safe intervals and a
 /// heading, with the arrival g. An *edge* leads from a label to a neighbour of its place, straight to the
-/// goal, or by a service into the next stage (Successors). An *entry* of OPEN is a move along an edge into
-/// one safe interval that has no label yet. Its g is a lower bound until the entry is *timed*, that is,
-/// tested against the reservations; from then on its g is exact. A move starts at the label that was expanded
-/// (*local*) or, any-angle, at that label's parent (*shortcut*). See search_state.h.
+/// goal, or by a service into the next stage (Successors).
+///
+/// An *entry* of OPEN is a move along an edge into one safe interval that has no label yet. Its g is a lower
+/// bound at first. An entry that has been tested against the reservations is *timed*, and its g is exact. A
+/// move starts at the label that was expanded (*local*) or, any-angle, at that label's parent (*shortcut*).
+/// See search_state.h.
 ///
 /// Pseudo-code, with the functions that do it, and the subsections of the paper in brackets:
 ///
@@ -102,17 +104,17 @@ struct SearchResult {
 ///     offer: push an entry with the lower bound of g, unless it is impossible, too expensive or dominated
 ///
 /// DominanceTable defines "dominates". A timed entry takes part in dominance as if it were a label. The paper
-/// increments waits by a step until a move is free of collisions; here departures have a closed form.
+/// increments waits by a step until a move is free of collisions; here, departures have a closed form.
 ///
-/// run() makes one or two passes of this search. The quick pass also discards arrivals that are not
-/// dominated but hardly better than others (SearchSettings::thorough). If it finds no path and has discarded
-/// such an arrival, the complete pass searches again and discards dominated arrivals only.
+/// run() makes one or two passes of this search. The quick pass also discards arrivals that are not dominated
+/// but hardly better than others (SearchSettings::thorough). If it finds no path after it has discarded such
+/// an arrival, the complete pass searches again. It discards only dominated arrivals.
 class AaSipp {
  public:
   explicit AaSipp(const ReservationTable& table) : table_(table) {}
 
-  /// Plans the robot of this space from the end of its committed actions, or its start, to its goal (which it
-  /// has). The robot holds no reservation.
+  /// Plans the robot of this space to its goal, from its start or the end of its committed actions. The robot
+  /// must have a goal, and holds no reservation.
   SearchResult run(SearchSpace& space, const SearchSettings& settings, const StopCondition& stop);
 
   /// Frees what is kept for the next search.

@@ -19,21 +19,21 @@ namespace fleetplan::core {
 
 class Vertices;
 
-/// How long translations take along the fastest ways of lattice moves and links from where a robot sets out,
-/// as far as it takes to reach its goal (A*; Hart, Nilsson and Raphael, 1968). Each move has the greatest
-/// speed where it begins. The ways follow rooms, corridors and zones, which a straight line does not, and
+/// The time of translations from where a robot sets out, along the fastest ways of lattice moves and links.
+/// It is computed as far as needed to reach the goal (A*; Hart, Nilsson and Raphael, 1968). Each move has the
+/// greatest speed at its beginning. Unlike a straight line, the ways follow rooms, corridors and zones. They
 /// take a small part of the effort of any-angle ways.
 class TimesFromStart {
  public:
   /// Between two vertices; `vertices` outlives this object.
   TimesFromStart(const Vertices& vertices, int start, int goal);
 
-  /// Whether there is a way to the goal; none if that takes more than `max_expansions` more expansions, or if
+  /// Whether there is a way to the goal. None if that takes more than `max_expansions` more expansions, or if
   /// `stop` is met first.
   std::optional<bool> reach_goal(std::int64_t max_expansions, const StopCondition& stop);
 
-  /// A lower bound for the ways to a vertex, seconds; exact on the fastest way to the goal. 0 as long as the
-  /// goal is not reached.
+  /// A lower bound of the time of the ways to a vertex, seconds; exact on the fastest way to the goal. 0 as
+  /// long as the goal is not reached.
   double at_least(int vertex);
 
   std::int64_t expansions() const { return expansions_; }
@@ -63,18 +63,20 @@ class TimesFromStart {
   bool reached_goal_ = false;
 };
 
-/// Estimates h: the cost for one robot, alone on the static map, to get from a vertex to a goal. In sight
-/// of the goal it is the cost of the straight line. Elsewhere it comes from a backward search from the goal
-/// (Lazy Theta*; Nash, Koenig and Tovey, AAAI 2010; rotations included) that is resumed when it has not
-/// reached the vertex yet. It is the cost of an existing path, so it may exceed the optimum: it guides the
-/// search and is not a lower bound. A robot that may reverse has the cost with either first translation.
+/// Estimates h: the cost for one robot, alone on the static map, to get from a vertex to a goal. In sight of
+/// the goal, it is the cost of the straight line. Elsewhere, it comes from a backward search from the goal
+/// (Lazy Theta*; Nash, Koenig and Tovey, AAAI 2010; rotations included). The search is resumed when it has
+/// not reached the vertex yet.
+///
+/// h is the cost of an existing path, so it may exceed the optimum. It guides the search and is not a lower
+/// bound. A robot that may reverse has two costs: with the first translation forwards, and backwards.
 class CostToGo {
  public:
   struct Estimate {
     double seconds = 0.0;   // without the rotation to `heading`; kForever if there is no path
     double heading = 0.0;   // of the first translation, forwards
     bool straight = false;  // the goal is in sight
-    /// As `seconds` if the first translation is backwards, with the opposite heading; kForever for a robot
+    /// As `seconds`, if the first translation is backwards, with the opposite heading. kForever for a robot
     /// that does not reverse.
     double reverse_seconds = kForever;
 
@@ -86,23 +88,24 @@ class CostToGo {
     }
   };
 
-  /// To the goal with this index in Vertices::goals(). `vertices` outlives this object. If they have no start
-  /// yet, the search goes in all directions, so that estimates do not depend on the starts to come.
+  /// To the goal with this index in Vertices::goals(). `vertices` must outlive this object. If they have no
+  /// start yet, the search goes in all directions, so that estimates do not depend on later starts.
   explicit CostToGo(const Vertices& vertices, std::size_t goal = 0);
   ~CostToGo();
 
-  /// To be called after Vertices::replace_start(). What is known of all other vertices is kept.
+  /// Must be called after Vertices::replace_start(). Keeps what is known of all other vertices.
   void replace_start();
 
-  /// From any vertex but the goal. If `stop` is met during the search, the estimate is the straight line's.
+  /// From any vertex but the goal. If `stop` is met during the search, the estimate is the cost of the
+  /// straight line.
   Estimate from(int vertex, const StopCondition& stop);
 
-  /// Whether the map has a path from a vertex; none if that takes more than `max_expansions` more expansions,
+  /// Whether the map has a path from a vertex. None if that takes more than `max_expansions` more expansions,
   /// or if `stop` is met first.
   std::optional<bool> reaches(int vertex, std::int64_t max_expansions, const StopCondition& stop);
 
-  /// The way that from() has estimated for a vertex and that exists: the vertices at which its translations
-  /// end, the goal last; none if it is not known.
+  /// The way behind the estimate of from() for a vertex: the vertices at which its translations end, the goal
+  /// last. None if it is not known or does not exist.
   std::vector<int> way(int vertex);
   /// Its length, metres.
   double metres(int vertex);

@@ -15,8 +15,9 @@
 
 namespace fleetplan::core {
 
-/// A part of the way of a robot: from the goal before, or from where its plan begins, to the next goal. A
-/// robot that has another radius after its last service has one more stage, in which it rests.
+/// A part of the way of a robot. It begins at the goal before, or where the robot's plan begins, and leads to
+/// the next goal. If the radius changes after the last service, one more stage follows, in which the robot
+/// rests.
 struct Stage {
   Vertices::GoalPose goal_pose;
   double service = 0.0;     // seconds
@@ -24,8 +25,8 @@ struct Stage {
   /// Estimate: seconds from rest in the goal's pose to the end of the last service, without waiting for any
   /// `not_before`. The service at this goal is included.
   double after = 0.0;
-  /// Estimate: no path ends earlier, because of this `not_before` and the later ones, and of when the last
-  /// goal becomes free or, with a horizon, of that if it is sooner.
+  /// Estimate: no path ends earlier, because of this `not_before` and the later ones, and because the last
+  /// goal must become free. With a horizon that is sooner than that, the horizon counts instead.
   double release = 0.0;
 
   const Vertices* vertices = nullptr;
@@ -45,12 +46,12 @@ struct ServiceStop {
   double heading;  // in which the robot leaves
 };
 
-/// Estimates when a robot ends its last service if it is alone on the static map; seconds. None if `stop` is
-/// met first.
+/// Estimates when a robot ends its last service, alone on the static map; seconds. None if `stop` is met
+/// first.
 std::optional<double> estimated_end(SearchSpace& space, const StopCondition& stop);
 
-/// What the search for one robot has to reach: the goals in their order, served, and in the end a rest for
-/// good; at the last goal or, with a horizon, wherever the robot may stay from then on.
+/// What the search for one robot has to reach: the goals in their order, served, and a rest for good in the
+/// end. The rest is at the last goal. With a horizon, it may be wherever the robot may stay from then on.
 class Goals {
  public:
   /// `horizon`: see SearchSettings. All arguments outlive this object.
@@ -59,9 +60,10 @@ class Goals {
   /// Makes the stages of a pass; false if `stop` is met first.
   bool begin(const StopCondition& stop);
   /// Makes this place, the last goal in the last stage, the end of all paths. Returns whether the robot may
-  /// stay there from some time on or, with a horizon or a last goal that is anywhere, somewhere else.
+  /// stay there from some time on. With a horizon or a last goal that is anywhere, staying elsewhere counts,
+  /// too.
   bool end_at(PlaceId place);
-  /// Whether the goal of a stage, which is this place, is ever free for long enough to be served.
+  /// Whether the goal of a stage, which is this place, is ever free long enough to be served.
   bool can_serve(int stage, const Place& place) const;
 
   int last_stage() const { return last_stage_; }
@@ -80,14 +82,15 @@ class Goals {
 
   /// The service of a robot that has this label at the goal of its stage.
   ServiceStop service_stop(const Label& label) const;
-  /// When a robot whose radius changes has to leave. A rest in the pose of a goal serves it as soon as it is
-  /// long enough, whatever the search has in mind: the robot leaves before, or after the service. Seconds.
+  /// When a robot whose radius changes must leave, seconds. A rest in a goal's pose serves the goal as soon
+  /// as it is long enough, even if the search does not intend it. So the robot leaves before the rest is long
+  /// enough, or after the service.
   double latest_departure(const Label& label) const;
 
   bool has_horizon() const { return horizon_ != kForever; }
   double horizon() const { return horizon_; }
-  /// Whether the robot may stay for good in this label, wherever it is. A rest in the pose of a goal at which
-  /// the radius changes would serve it.
+  /// Whether the robot may stay for good in this label, wherever it is. False in a goal's pose at which the
+  /// radius changes, because the rest would serve the goal.
   bool may_rest_at(const Label& label) const;
 
   /// The committed moves of the robot and the path of labels to `end`. Moves of the path that continue

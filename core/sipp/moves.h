@@ -16,11 +16,10 @@
 
 namespace fleetplan::core {
 
-/// How long straight moves and rotations take, by the motion of the robot and the zones that limit how it
-/// drives.
+/// How long straight moves and rotations take, by the robot's limits and the zones that limit how it drives.
 class MoveTimes {
  public:
-  /// `zones`: null if there are none. Both outlive this object.
+  /// `zones`: null if there are none. Both must outlive this object.
   MoveTimes(const Body& body, const DriveZones* zones)
       : body_(body),
         slowest_body_(body),
@@ -29,15 +28,15 @@ class MoveTimes {
   }
 
   const Body& body() const { return body_; }
-  /// The motion with the least angular speed of all zones.
+  /// The robot's limits with the least angular speed of all zones.
   const Body& slowest_body() const { return slowest_body_; }
-  /// Whether the robot has to be slower in some places.
+  /// Whether the robot has to drive more slowly in some places.
   bool limit_speeds() const { return zones_ != nullptr; }
   /// Whether the speed may change during a straight move.
   bool have_parts() const { return limit_speeds() || body_.linear_inertia.is_limited; }
 
-  /// Seconds of a straight move of this length, from rest to rest. `path` returns its Segment, which only
-  /// zones ask for.
+  /// Seconds of a straight move of this length, from rest to rest. `path` returns its Segment. It is called
+  /// only if there are zones.
   template <class Path>
   double translation_time(double length, const Path& path) const {
     if (!limit_speeds()) return body_.translation_time(length);
@@ -54,8 +53,8 @@ class MoveTimes {
     return limit_speeds() ? zones_->linear_speed_at(position) : body_.linear_speed;
   }
 
-  /// The pieces of a straight move from rest to rest, seconds from its beginning: between the borders of
-  /// speed zones.
+  /// The pieces of a straight move from rest to rest, between the borders of speed zones. In seconds from its
+  /// beginning.
   std::vector<DriveZones::Piece> pieces(const Segment& path) const {
     if (limit_speeds()) return zones_->pieces(path.from, path.to);
     DriveZones::Piece piece{path, body_.linear_speed, 0.0, body_.translation_time(path.length())};
@@ -71,17 +70,18 @@ class MoveTimes {
   const DriveZones* zones_;  // null if they limit no speeds
 };
 
-/// The parts of a straight move, from rest to rest, in which its acceleration is constant: in seconds from
-/// its departure.
+/// The parts of a straight move from rest to rest in which its acceleration is constant. In seconds from its
+/// departure.
 std::vector<TimedSegment> parts_of(const std::vector<DriveZones::Piece>& pieces);
 
 /// The earliest departure in [t_min, t_max] of a straight move of `duration` seconds (> 0), see
-/// ReservationTable::earliest_departure(); its speed may change on the way.
+/// ReservationTable::earliest_departure(). The speed may change on the way.
 std::optional<double> earliest_departure(const ReservationTable& table, const Footprint& footprint,
                                          const MoveTimes& times, const Segment& way, double duration,
                                          double t_min, double t_max);
 
-/// A straight move from rest to rest, as its parts of different speeds; each continues the one before.
+/// A straight move from rest to rest, divided into parts of different speeds. Each part continues the part
+/// before.
 std::vector<TimedMove> timed_moves(const MoveTimes& times, const Segment& way, double departure,
                                    double arrival, bool reverse);
 

@@ -17,18 +17,22 @@ namespace fleetplan::core {
 
 class Instance;
 
-/// What a search for one robot needs besides reservations: where and when its plan begins, its goals, its
-/// view of the static map, and the costs to go to each of its goals.
+/// The static side of one robot's search:
+///
+/// - where and when its plan begins,
+/// - its goals,
+/// - its view of the static map,
+/// - and the costs to go to each of its goals.
 class SearchSpace {
  public:
   /// If `stop` is met first, the space is not finished() and must not be used.
   SearchSpace(const Instance& instance, std::size_t robot, const StopCondition& stop);
-  /// With another itinerary than that of the instance, with the same begin, for a robot with one load.
+  /// With another itinerary than in the instance, but with the same beginning. For a robot with one load.
   SearchSpace(const Instance& instance, std::size_t robot, Itinerary itinerary, const StopCondition& stop);
-  /// For robots that are alike, one after the other, on their ways to the same goal; they share the costs to
-  /// go. begin_at() makes it the space of a robot, which has no commitments and one load.
+  /// For similar robots, one after the other, on their ways to the same goal. They share the costs to go.
+  /// begin_at() makes it the space of a robot, which has no commitments and one load.
   SearchSpace(const Instance& instance, std::size_t robot, const Goal& goal);
-  /// `any_heading`: the robot has the heading at its start that suits it best.
+  /// `any_heading`: the robot starts with the heading that suits it best.
   void begin_at(std::size_t robot, bool any_heading);
   SearchSpace(const SearchSpace&) = delete;
   SearchSpace& operator=(const SearchSpace&) = delete;
@@ -41,21 +45,21 @@ class SearchSpace {
   const Trajectory& committed() const { return itinerary_.committed; }
   /// The heading of the robot then.
   double heading_at_start() const { return itinerary_.pose.theta; }
-  /// The first move needs no rotation, whatever that heading is.
+  /// The first move needs no rotation, whatever the heading is.
   bool any_heading_at_start() const { return any_heading_at_start_; }
-  /// Whether the committed actions end at rest in the pose of the first goal. Then that rest begins at
+  /// Whether the committed actions end at rest in the pose of the first goal. Then the rest begins at
   /// arrived(), and service_done() of the service is done; seconds. It counts until the robot leaves.
   bool begins_in_goal_pose() const { return begins_in_goal_pose_; }
   double arrived() const { return itinerary_.arrived; }
   double service_done() const { return itinerary_.service_done; }
-  /// Whether the robot need not move for any of its goals.
+  /// Whether the robot can serve all its goals without moving.
   bool all_goals_at_start() const { return goals_at_start_ == goal_count(); }
 
-  /// In its first stage: on the way to the first goal that is left.
+  /// In the first stage, on the way to the first goal that is left.
   const Vertices& vertices() const { return *vertices_.front().vertices; }
   /// In a stage: the robot has one view for each of its loads.
   const Vertices& vertices(std::size_t stage) const { return *numbered(stage).vertices; }
-  /// Numbers of its vertices among those of all its views begin with this one in a stage.
+  /// The number of the first vertex of this stage's view, if the vertices of all views are numbered together.
   int first_vertex(std::size_t stage) const { return numbered(stage).first_vertex; }
   /// Vertices of all views.
   int vertex_count() const { return vertices_.back().first_vertex + vertices_.back().vertices->count(); }
@@ -73,18 +77,17 @@ class SearchSpace {
   }
 
   bool changes_load() const { return views_->change(); }
-  /// Whether it has another radius at rest at the last goal, after the service there.
+  /// Whether the robot has another radius at rest at the last goal, after its service.
   bool rests_with_other_radius() const {
     return changes_load() && wall_radius(goal_count()) != wall_radius(goal_count() - 1);
   }
-  /// The radius to walls in a stage or, with goal_count(), at rest at the last goal; metres, inflation
-  /// included.
+  /// The radius to walls in a stage, metres, inflation included. With goal_count(): at rest at the last goal.
   double wall_radius(std::size_t stage) const { return (*views_)[stage].body.wall_radius; }
   Footprint footprint(std::size_t stage) const {
     return {robot_, (*views_)[stage].body.radius, stage > goals_at_start_};
   }
 
-  /// To the goal with this index in Vertices::goals(), created on first use. Equal goals share theirs.
+  /// To the goal with this index in Vertices::goals(), created on first use. Equal goals share their costs.
   CostToGo& cost_to_go(std::size_t goal);
 
   /// Approximate memory in use, bytes.
@@ -105,7 +108,7 @@ class SearchSpace {
   const Instance& instance_;
   std::size_t robot_;
   const Views* views_;
-  Itinerary own_itinerary_;  // if it is not that of the instance
+  Itinerary own_itinerary_;  // if it differs from the instance's
   const Itinerary& itinerary_;
   bool any_heading_at_start_ = false;
   std::vector<Numbered> vertices_;  // one for each view, by its number

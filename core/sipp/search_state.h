@@ -28,14 +28,15 @@ enum class ArrivalId : int { none = -1 };
 struct Place {
   int vertex;
   int stage;
-  int number;  // of the vertex among those of all views: SearchSpace::first_vertex(stage) + vertex
+  int number;  // of the vertex among the vertices of all views: SearchSpace::first_vertex(stage) + vertex
   Position position;
   CostToGo::Estimate
       estimate;            // h, to the end of the last service; of an existing way, so it may be too high
   bool any_heading;        // the goal of the stage, in which the robot may rest with any heading
   int first_interval;      // of SearchState::intervals
   int end_interval;        // one past the last one
-  PlaceId other_stage;     // of the same vertex; none for the one that was reached first
+  PlaceId other_stage;     // links the places of one vertex in all stages; none for the place that was
+                           // reached first
   bool is_window = false;  // the intervals are the arrivals for a service after which the radius changes
 
   bool never_safe() const { return first_interval == end_interval; }
@@ -54,8 +55,9 @@ struct Label {
 };
 
 /// A straight move from a label, into any safe interval of its target. It departs after the rotation and the
-/// added wait, within the label's safe interval, and arrives within the target's. A move in the direction of
-/// the translation before it may depart at once: then both form one translation, which has one added wait.
+/// added wait, within the label's safe interval. It arrives within the target's safe interval. A move in the
+/// direction of the translation before may depart at once: both then form one translation, with one added
+/// wait.
 struct Move {
   double heading = 0.0;              // of the robot
   double duration = 0.0;             // seconds; 0 for a service
@@ -71,7 +73,7 @@ struct Move {
     return continues_straight && at_source_from + duration >= target.begin &&
            at_source_from <= latest_into(target);
   }
-  /// A lower bound of the departure, without regard to robots on the way; kForever if the move is impossible.
+  /// A lower bound of the departure if there were no robots on the way. kForever if the move is impossible.
   double earliest_into(const SafeInterval& target) const {
     if (may_continue_into(target)) return at_source_from;
     return ready_for(target) <= latest_into(target) ? ready_for(target) : kForever;
@@ -154,14 +156,15 @@ class OpenList {
   IndexedVector<OpenEntry, EntryId> entries_;
 };
 
-/// The arrivals of one robot in safe intervals that no other arrival dominates. Arrival a dominates arrival b
-/// in the same interval if a's time, plus the rotation from a's heading to b's, plus the added wait before a
-/// move, is no later than b's time.
+/// The arrivals of one robot in safe intervals that no other arrival dominates. Let a and b be arrivals in
+/// the same interval. Take a's time, add the rotation from a's heading to b's, and the added wait before a
+/// move. If the sum is no later than b's time, a dominates b.
 class DominanceTable {
  public:
-  /// Removes all arrivals and intervals, for a search with this motion: the one with the least angular speed
-  /// that the robot has anywhere, so that an arrival that dominates does so in every zone. `slack` > 0: an
-  /// arrival also dominates others that precede it by less than `slack` seconds, whatever their heading.
+  /// Removes all arrivals and intervals, for a search with these limits of motion. They have the least
+  /// angular speed that the robot has anywhere, so that an arrival that dominates does so in every zone.
+  /// `slack` > 0: an arrival also dominates others that are earlier by less than `slack` seconds, whatever
+  /// their heading.
   void reset(const Body& body, double slack);
 
   /// Intervals are numbered from 0. The count never decreases until reset().
@@ -169,8 +172,8 @@ class DominanceTable {
 
   bool empty(int interval) const { return first_[interval] == ArrivalId::none; }
 
-  /// The time from which arrivals with this heading are dominated. The added wait is included: an earlier
-  /// arrival may need it, a later one that continues straight does not.
+  /// The time from which arrivals with this heading are dominated, with the added wait. An earlier arrival
+  /// may need the wait. A later arrival that continues straight does not.
   double dominated_from(int interval, double heading) const {
     double from = kForever;
     for (ArrivalId id = first_[interval]; id != ArrivalId::none;) {
@@ -185,10 +188,10 @@ class DominanceTable {
   /// Returns whether an arrival at the same time with the same heading is in the table.
   bool contains(int interval, double time, double heading) const;
 
-  /// Adds an arrival and removes those that it dominates (without the slack).
+  /// Adds an arrival and removes the arrivals that it dominates (without the slack).
   ArrivalId add(int interval, double time, double heading);
 
-  /// Returns whether this arrival was removed because one added after it dominates it.
+  /// Returns whether this arrival was removed because a later addition dominates it.
   bool is_dominated(ArrivalId arrival) const { return arrivals_[arrival].dominated; }
 
  private:
@@ -238,7 +241,7 @@ inline ArrivalId DominanceTable::add(int interval, double time, double heading) 
   return arrivals_.push_back({time, heading, ArrivalId::none, false});
 }
 
-/// What the search for one robot has reached. Kept from search to search for its memory.
+/// What the search for one robot has reached. Kept from search to search to reuse its memory.
 struct SearchState {
   IndexedVector<PlaceId> place_of_vertex;  // the latest; none for vertices that were not reached
   IndexedVector<Place, PlaceId> places;

@@ -18,28 +18,32 @@
 namespace fleetplan::core {
 
 /// The successors of labels for one robot: moves to neighbours, shortcuts from the parent (any-angle), moves
-/// straight to the goal, and services. What driving backwards, zones, and loads that change from stage to
-/// stage mean for a move is here, and the loop of the search knows none of them; but Goals::latest_departure
-/// says when a robot has to leave before its radius changes, Goals::trajectory_to divides the moves of the
-/// result at zones, and Search::heading_at_start chooses the direction of a robot that may have any heading.
+/// straight to the goal, and services.
+///
+/// This class knows how a move depends on driving backwards, on zones, and on loads that change from stage to
+/// stage. The loop of the search does not. Three parts are elsewhere:
+///
+/// - Goals::latest_departure says when a robot has to leave before its radius changes.
+/// - Goals::trajectory_to divides the moves of the result at zones.
+/// - Search::heading_at_start chooses the direction of a robot that may have any heading.
 class Successors {
  public:
   /// All arguments outlive this object.
   Successors(const ReservationTable& table, SearchSpace& space, const Goals& goals, SearchState& state,
              const StopCondition& stop);
 
-  /// The place of a vertex in a stage, with its safe intervals; computed when it is reached for the first
-  /// time.
+  /// The place of a vertex in a stage, with its safe intervals. Computed when it is first reached.
   PlaceId place_of(int vertex, int stage);
   PlaceId goal_of(int stage) { return place_of(goals_.stage(stage).goal_pose.vertex, stage); }
 
   /// The service that a label begins, with its timed entries.
   struct Services {
     std::vector<OpenEntry> entries;  // one, or one for each safe interval of a robot whose load changes
-    /// Nothing else is worth while, because the service takes no time or the robot may stay until it ends.
+    /// No other move from the label is worth while, because the service takes no time or the robot may stay
+    /// until it ends.
     bool suffice = false;
   };
-  /// If the label is at the goal of a stage before the last one, its service, which leads to the next stage.
+  /// The service that leads to the next stage, if the label is at the goal of a stage before the last one.
   Services services_from(LabelId from);
 
   /// Numbers of SearchState::edges.
@@ -47,17 +51,17 @@ class Successors {
     int first;
     int end;  // one past the last one
   };
-  /// Adds the edges from a label to other vertices: to its neighbours, each with the shortcut from its
-  /// parent, and, any-angle, straight to the goal in sight.
+  /// Adds the edges from a label to other vertices. They lead to its neighbours, each with the shortcut from
+  /// its parent, and, any-angle, straight to the goal in sight.
   EdgeRange add_edges(LabelId from);
 
   /// Tests an edge's shortcut against obstacles, once (paper, "Estimating the feasibility of the move w.r.t.
   /// static obstacles").
   void test_sight(Edge& edge) const;
 
-  /// The earliest departure of a move that meets no robot and arrives within `target` (paper, "Estimating the
-  /// feasibility of the move w.r.t. dynamic obstacles and computing earliest arrival time"); none if there is
-  /// none, or if obstacles block the shortcut.
+  /// The earliest departure of a move that meets no robot and arrives within `target`. None if there is no
+  /// such departure, or if obstacles block the shortcut. Paper, "Estimating the feasibility of the move
+  /// w.r.t. dynamic obstacles and computing earliest arrival time".
   std::optional<double> earliest_departure(const OpenEntry& entry, const SafeInterval& target) const;
 
  private:

@@ -20,18 +20,20 @@
 namespace fleetplan::core {
 
 /// A path of straight moves from stop to stop, with the earliest times at which the robot can follow it. It
-/// is safe-interval path planning (Phillips and Likhachev, ICRA 2011) in which only the times are free: what
-/// is kept of each stop is the earliest arrival in each of its safe intervals. Its stops need not be
-/// vertices.
+/// is safe-interval path planning (Phillips and Likhachev, ICRA 2011) in which only the times are free. Each
+/// stop has the earliest arrival in each of its safe intervals. Stops need not be vertices.
 ///
-/// For robots that follow a planned trajectory to their goals, with one load, and are not at their first goal
-/// when their plan begins; and without a horizon.
+/// It requires that
+///
+/// - the robot follows a planned trajectory to its goals, with one load,
+/// - it is not at its first goal when its plan begins,
+/// - and there is no horizon.
 class TimedPath {
  public:
   using Accept = std::function<bool(const Trajectory&)>;
 
   /// The robot holds no reservation in `table`, or an ignored one. Once `stop` is met, no path is timed. The
-  /// arguments outlive this object.
+  /// arguments must outlive this object.
   TimedPath(const Instance& instance, const ReservationTable& table, std::size_t robot,
             const StopCondition& stop);
   /// Whether paths of the robot can be timed.
@@ -39,19 +41,22 @@ class TimedPath {
   TimedPath(const TimedPath&) = delete;
   TimedPath& operator=(const TimedPath&) = delete;
 
-  /// Takes the path of a trajectory of the robot. Returns false if it cannot be followed as fast, or is none
-  /// of those that can be timed.
+  /// Takes the path of a trajectory of the robot. Returns false if the path cannot be followed as fast, or
+  /// cannot be timed.
   bool follow(const Trajectory& trajectory);
 
   /// The stops, the begin and the end included.
   std::size_t stop_count() const { return stops_.size(); }
   const Position& position(std::size_t stop) const { return stops_[stop].position; }
-  /// Whether the path may leave this stop out: it serves no goal, and the robot does not turn back there.
+  /// Whether the path may leave out this stop: it serves no goal, and the robot does not turn back there.
   bool is_bend(std::size_t stop) const;
 
-  /// Replaces `count` stops, from `first` on, which are bends, by at most one. Returns whether it has: the
-  /// moves are free of obstacles, the stops that follow are reached sooner, and the trajectory costs less
-  /// than `bound` seconds and satisfies `accept`.
+  /// Replaces `count` stops, from `first` on, by at most one. They must be bends. Returns false, and changes
+  /// nothing, unless all of these hold:
+  ///
+  /// - The moves are free of obstacles.
+  /// - The robot reaches the next stops sooner.
+  /// - The trajectory costs less than `bound` seconds and satisfies `accept`.
   bool replace(std::size_t first, std::size_t count, const std::optional<Position>& by, double bound,
                const Accept& accept);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// One robot's view of the static map, while it carries one load: where it may stop, and which straight moves
+// One robot's view of the static map while it carries one load: where it may stop, and which straight moves
 // it may make.
 
 #include <cstddef>
@@ -22,25 +22,29 @@ namespace fleetplan::core {
 
 class Instance;
 
-/// One robot's start and goals where they lie off its lattice (refined for its radius), numbered after the
-/// vertices of that, which they are linked to: to all in sight within two spacings. A start or goal that is
-/// too near to a wall or to another robot's start is an own vertex, too. At such a vertex the robot keeps the
-/// distance from walls that it has there, and from a start it is linked to vertices that are far enough away
-/// to be clear. A start that is too near to a wall is left once, and never entered again; a last goal that is
-/// so is entered once, and never left again, even where both are the same place. Like such a start are that
-/// inside of a zone that the robot may leave, and the places on its way out (see Leaving), which are own
-/// vertices, each linked to the next one only.
+/// The start and goals of one robot that lie off its lattice (refined for its radius). They are numbered
+/// after the lattice's vertices, and linked to all vertices in sight within two spacings.
+///
+/// A start or goal that is too near to a wall or to another robot's start is an own vertex, too. At such a
+/// vertex, the robot keeps the distance from walls that it has there. From such a start, it is linked to
+/// vertices that are far enough away to be clear.
+///
+/// - A start that is too near to a wall is left once, and never entered again.
+/// - A last goal that is too near to a wall is entered once, and never left again, even if both are the same
+///   place.
+/// - A start inside a zone that the robot may leave is treated like the first kind. So are the places on its
+///   way out (see Leaving), which are own vertices, each linked only to the next.
 class OwnVertices {
  public:
-  /// With the load of the robot in a stage, see Views. `instance` outlives this object.
+  /// With the load of the robot in a stage, see Views. `instance` must outlive this object.
   OwnVertices(const Instance& instance, std::size_t robot, std::size_t stage);
 
-  /// Adds the place where the plan of this robot begins, if the lattice lacks it; returns its vertex.
+  /// Adds the place where the plan of this robot begins, if the lattice lacks it. Returns its vertex.
   int add_start(std::size_t robot);
   /// Removes what the latest call, add_start(), has added.
   void remove_start();
-  /// Adds a goal of this robot, if it is neither on the lattice nor known; returns its vertex. It may overlap
-  /// a wall by so much, metres: more than 0 for the last goal only.
+  /// Adds a goal of this robot, if it is neither on the lattice nor known. Returns its vertex. `overlap`: how
+  /// far the goal may overlap a wall, metres; more than 0 only for the last goal.
   int add_goal(std::size_t robot, const Position& goal, double overlap);
 
   /// Vertices from here on are own ones.
@@ -59,10 +63,10 @@ class OwnVertices {
     }
   }
 
-  /// Returns whether obstacles leave the straight line between two vertices, at least one of which is an own
-  /// one, free for the robot.
+  /// Returns whether obstacles leave the straight line between two vertices free for the robot. At least one
+  /// of them is an own vertex.
   bool is_free(int from, int to) const;
-  /// Whether the straight move leads back to a start that is only left, or on from a goal that is only
+  /// Whether the straight move leads back to a start that is only left, or away from a goal that is only
   /// entered.
   bool leads_back(int from, int to) const {
     return from != to && (is_only_left(to) || is_only_entered(from));
@@ -107,7 +111,8 @@ class OwnVertices {
   const int first_;
   std::vector<OwnVertex> own_;
   std::size_t start_count_ = 0;  // own vertices that add_start() has added
-  // The own vertices on the way out of zones, the start included, and the vertex at which that ends.
+  // The own vertices on the way out of zones: the first one, the start included, and the vertex at which the
+  // way ends.
   int first_inside_ = std::numeric_limits<int>::max();
   int end_inside_ = 0;
   int outside_ = -1;
@@ -115,27 +120,31 @@ class OwnVertices {
   int never_left_ = -1;     // the last goal, if it is so
 };
 
-/// The vertices that the robot may stop at, and the straight moves between them: those of the lattice, those
-/// that refine it for its radius, and its own start and goals where they lie off the lattice. A robot whose
-/// load changes has one view for each of its loads.
+/// The vertices that the robot may stop at, and the straight moves between them. There are three kinds:
+///
+/// - the vertices of the lattice,
+/// - vertices that refine it for the robot's radius,
+/// - and the robot's own start and goals off the lattice.
+///
+/// A robot whose load changes has one view for each of its loads.
 class Vertices {
  public:
-  /// The view with the load of the robot in a stage, see Views.
-  /// If `stop` is met first, the view is not finished() and must not be used.
+  /// The view with the load of the robot in a stage, see Views. If `stop` is met first, the view is not
+  /// finished() and must not be used.
   Vertices(const Instance& instance, std::size_t robot, std::size_t stage, const StopCondition& stop);
-  /// With other goals, those of `itinerary`; its begin is that of the instance, and the robot has one load.
+  /// With the goals of `itinerary` instead. It begins as in the instance, and the robot has one load.
   Vertices(const Instance& instance, std::size_t robot, const Itinerary& itinerary, std::size_t stage,
            const StopCondition& stop);
-  /// The view with one goal and without a start, until replace_start() gives one: for robots that are alike,
-  /// one after the other, on their ways to the same goal.
+  /// The view with one goal and without a start, until replace_start() gives one. For similar robots, one
+  /// after the other, on their ways to the same goal.
   Vertices(const Instance& instance, std::size_t robot, const Goal& goal);
-  /// Makes the place where the plan of this robot begins the start, instead of the one before. What it adds
-  /// to the vertices of the goal comes last.
+  /// Replaces the start by the place where the plan of this robot begins. What it adds to the vertices of the
+  /// goal comes last.
   void replace_start(const Instance& instance, std::size_t robot);
 
   bool finished() const { return finished_; }
 
-  /// The pose of a goal; without a heading, any will do.
+  /// The pose of a goal. Without a heading, any heading is right.
   struct GoalPose {
     int vertex = -1;
     std::optional<double> heading;
@@ -143,8 +152,8 @@ class Vertices {
   };
   /// -1 if the robot has another load there.
   int start() const { return start_; }
-  /// The poses of the goals that are left to visit, in their order; empty for a parked robot. Goals at which
-  /// the robot neither arrives nor leaves with this load have no vertex.
+  /// The poses of the goals that are left to visit, in their order. Empty for a parked robot. A goal has no
+  /// vertex if the robot neither arrives at it nor leaves it with this load.
   const std::vector<GoalPose>& goals() const { return goals_; }
 
   /// How long moves take.
@@ -167,20 +176,23 @@ class Vertices {
     return on_lattice ? lattice_.between(from, to) : Displacement::between(position(from), position(to));
   }
 
-  /// Whether the robot may come to a vertex on its way to a goal: a last goal that is too near to a wall is
-  /// on the way to none.
+  /// Whether the robot may come to a vertex on its way to a goal. A last goal that is too near to a wall is
+  /// on the way to no other goal.
   bool may_visit(int vertex, int goal) const { return vertex == goal || !own_.is_only_entered(vertex); }
 
-  /// Returns whether the straight move does not lead back to a start that is too near to a wall, or on from
-  /// such a goal, nor into a zone that the robot has to leave, and one-way zones allow it.
+  /// Returns whether the straight move is allowed:
+  ///
+  /// - It does not lead back to a start that is too near to a wall, or away from such a goal.
+  /// - It does not lead into a zone that the robot has to leave.
+  /// - One-way zones allow it.
   bool allow(int from, int to) const {
     if (own_.leads_back(from, to)) return false;
     if (own_.is_inside(from) || own_.is_inside(to)) return from == to || own_.leads_out(from, to);
     return zones_ == nullptr || zones_->allow(position(from), position(to));
   }
 
-  /// Returns whether obstacles leave the straight line between two vertices free for the robot (paper,
-  /// "Estimating the feasibility of the move w.r.t. static obstacles"), and the move is allowed.
+  /// Returns whether the move between two vertices is allowed and obstacles leave the straight line free
+  /// (paper, "Estimating the feasibility of the move w.r.t. static obstacles").
   bool in_sight(int from, int to) const { return is_free(from, to) && allow(from, to); }
 
   /// Calls visit(vertex) for every neighbour that one lattice move or link reaches from `vertex`.
