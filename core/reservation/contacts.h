@@ -1,11 +1,12 @@
 #pragma once
 
-// Pairs of robots that begin or end nearer to each other than the search keeps them apart.
+// Pairs of robots that begin or end nearer to each other than the search keeps robots apart.
 //
-// A robot that starts nearer to another one than the sum of their inflated radii may leave: as long as both
-// stand at their starts or move straight away from them, they only have to come no nearer than they are. Bare
-// disks that overlap by no more than kContactTolerance may leave in the same way, and may rest at a goal that
-// touches another start or goal so.
+// Two robots may start nearer to each other than the sum of their inflated radii. They may then leave. While
+// both stand at their starts or move straight away from them, they only have to come no nearer than they are.
+//
+// Bare disks may overlap by up to kContactTolerance. Such a robot may leave in the same way. It may also rest
+// at a goal that touches another start or goal so.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +17,7 @@
 
 namespace fleetplan::core {
 
-/// Where a robot begins and ends, and how far the search's vertices there may be from these positions.
+/// Where a robot begins and ends, and how far the search's vertices may be from these positions.
 struct Terminals {
   Position start{0.0, 0.0};
   std::optional<Position> goal;
@@ -26,40 +27,41 @@ struct Terminals {
   double inflation = 0.0;        // metres, with the vicinity; a part of the pair radius
   double radius_at_start = 0.0;  // metres; neither inflation nor vicinity included
   double radius_at_goal = 0.0;   // metres; neither inflation nor vicinity included
-  /// It becomes larger at the start only, so it has not been so near to any bare disk before.
+  /// The robot becomes larger only at the start, so it has never been so near to any bare disk before.
   bool grows_at_start = false;
 };
 
-/// Where a robot stands, or moves from or to.
-/// `leaving`: moves from the start, and is one of two robots that leave one after the other.
+/// Where a robot stands, or where its move begins or ends. `leaving`: it moves from its start, and the two
+/// robots leave one after the other.
 enum class Terminal : std::uint8_t { none, goal, start, leaving };
 
 class Contacts {
  public:
-  /// More are not listed; a robot that has more cannot leave its start.
+  /// The most contacts of a robot that are listed. A robot with more cannot leave its start.
   static constexpr std::size_t kMaxContacts = 64;
 
-  /// `with_margin`: whether robots keep an interval margin (PlanOptions). Then those that start too near to
+  /// `with_margin`: whether robots keep an interval margin (PlanOptions). Then robots that start too near to
   /// each other leave one after the other.
   explicit Contacts(std::vector<Terminals> robots, bool with_margin = false);
 
   /// Whether no two robots are in contact.
   bool empty() const;
-  /// Whether the robot is in contact with no other one.
+  /// Whether the robot is in contact with no other robot.
   bool none(std::size_t robot) const { return contacts_[robot].empty(); }
   /// Whether there are more than kMaxContacts.
   bool too_many(std::size_t robot) const { return too_many_[robot]; }
-  /// The robots that start too near to the start of this one, ascending.
+  /// The robots whose starts are too near to the start of this robot, ascending.
   std::vector<std::size_t> at_start(std::size_t robot) const;
-  /// How much nearer the start of the robot is to that of another one than they are kept apart, at most.
+  /// By how much the start of this robot is too near to another start, at most: the distance that robots
+  /// keep, minus the distance of the starts.
   double deficit(std::size_t robot) const;
 
-  /// Whether the robot stands at its start or goal, or moves from its start or to its goal. `none` for a
-  /// robot without contacts, or if `radius` (metres) is not the one that it begins or ends with. A robot that
-  /// `has_left` its start before keeps apart from others there, too.
+  /// Whether the robot stands at its start or goal, or moves from its start or to its goal. Returns `none`
+  /// for a robot without contacts, or if `radius` (metres) is not its radius at its begin or end. A robot
+  /// that `has_left` its start keeps apart from others there, too.
   Terminal terminal(std::size_t robot, const Segment& path, double radius, bool has_left = false) const;
 
-  /// The distance that two robots keep at these ends, metres; `full` where they are not in contact.
+  /// The distance that two robots keep at these ends, metres. `full` if they are not in contact.
   double distance(std::size_t robot, Terminal at, std::size_t other, Terminal other_at, double full) const;
 
  private:
@@ -68,8 +70,8 @@ class Contacts {
     double leaving = kForever;   // metres; the distance to keep while both are at their starts
     double touching = kForever;  // metres; the distance to keep where at least one of them is at its goal
     /// They leave one after the other: once they have been clear of each other, they come no nearer again.
-    /// The bare disks overlap at the starts, or with an interval margin those that are kept apart, by more
-    /// than contact.
+    /// This is so if the bare disks overlap at the starts by more than contact. With an interval margin, the
+    /// disks that are kept apart count instead.
     bool in_turn = false;
   };
   struct Point;

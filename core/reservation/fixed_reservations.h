@@ -12,10 +12,10 @@
 namespace fleetplan::core {
 
 /// Reservations that no order of the robots can change: moving obstacles, and the committed motion of robots.
-/// They are immutable, so that all tables of a request share them, in any thread.
+/// They are immutable, so all tables of a request share them, in any thread.
 class FixedReservations {
  public:
-  /// A robot's committed motion, and where it begins what is planned for it.
+  /// A robot's committed motion, and where the planned part begins.
   struct Committed {
     LargestDisk disk;
     Position start{0.0, 0.0};              // at t = 0
@@ -38,13 +38,13 @@ class FixedReservations {
 
   FixedReservations() = default;
   /// The map is [0, width] x [0, height] metres. Null `contacts`: no two robots are in contact. If the stop
-  /// condition is met first, or memory is spent, the reservations are not known, see below.
+  /// condition is met first, or memory is spent, the reservations are not known(), see below.
   FixedReservations(double width, double height, std::vector<Committed> robots,
                     const std::vector<MovingObstacle>& obstacles, const Contacts* contacts,
                     const StopCondition& stop);
 
   bool empty() const { return empty_; }
-  /// False if they could not be indexed. Then nothing may be planned.
+  /// False if the reservations could not be indexed. Then nothing may be planned.
   bool known() const { return known_; }
   /// The number of parts, see Occupant.
   std::size_t count() const { return owners_.size(); }
@@ -55,9 +55,9 @@ class FixedReservations {
   bool begins_at_commitment_end(std::size_t robot, const Position& from) const;
 
   /// Calls visit(occupant) for every part of an obstacle or of another robot's committed motion that could
-  /// touch this robot's disk of the given radius (metres) at times that differ by at most `margin` seconds. A
-  /// part may be visited more than once. Stops when visit returns false; returns false then, and true
-  /// otherwise.
+  /// touch this robot's disk. The disk has the given radius (metres), and the times may differ by up to
+  /// `margin` seconds. A part may be visited more than once. Stops and returns false when visit returns
+  /// false; otherwise returns true.
   template <class Visitor>
   bool visit(std::size_t robot, const MovingDisk& mine, double radius, double margin, Visitor&& visit) const {
     return tree_.visit(mine, radius, margin, [&](std::size_t index) {

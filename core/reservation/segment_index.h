@@ -15,14 +15,14 @@ namespace fleetplan::core {
 
 /// The timed segments of robots, indexed in space and time.
 ///
-/// Robots are sorted into a few classes by the largest radius that they ever have. Each class has buckets of
-/// its own. A segment is entered into every bucket of a class where it could touch a robot of that class,
-/// with the time window in which it could. A query therefore only visits the buckets on its own centre line,
-/// and there only the entries whose time window overlaps the query's.
+/// Robots are sorted into a few classes by the largest radius that they ever have. Each class has its own
+/// buckets. A segment is entered into every bucket in which it could touch a robot of the class, with the
+/// time window of the contact. So a query only visits the buckets on its own centre line, and in them only
+/// the entries whose time window overlaps its own.
 ///
-/// A class has layers of buckets, those of one being larger than those of the one before. A segment is
-/// entered into the first layer whose buckets are not much smaller than the distance at which it could touch
-/// a robot of the class, so that a robot that is much larger than others is in few buckets.
+/// A class has layers of buckets, each with larger buckets than the layer before. Let d be the distance at
+/// which a segment could touch a robot of the class. The segment is entered into the first layer whose
+/// buckets are not much smaller than d. So a robot that is much larger than others is in few buckets.
 class SegmentIndex {
  public:
   /// A robot on one of its segments.
@@ -66,9 +66,9 @@ class SegmentIndex {
                const Contacts* contacts);
 
   const LargestDisk& disk(std::size_t robot) const { return disks_[robot]; }
-  /// The layers that have what could touch `robot`, one at least. A query visits all of them.
+  /// The layers with everything that could touch `robot`, at least one. A query visits all of them.
   const std::vector<Layer>& layers(std::size_t robot) const { return classes_[class_of_[robot]].layers; }
-  /// Whether a segment that is or was in the index changes its speed.
+  /// Whether any segment that is or was in the index changes its speed.
   bool has_ramps() const { return has_ramps_; }
   /// Null if no two robots are in contact.
   const Contacts* contacts() const { return contacts_; }
@@ -80,9 +80,9 @@ class SegmentIndex {
   void ignore(std::size_t robot, bool ignored) { ignored_[robot] = ignored; }
 
   /// Calls visit(occupant) for every occupant of a layer that could touch its robot in this bucket of the
-  /// layer's grid within the open time window: what rests for ever in the order in which it was added, then
-  /// the others by the beginning of their time windows, and in that order if these are equal. Stops when
-  /// visit returns false; returns false then, and true otherwise.
+  /// layer's grid within the open time window. Occupants that rest for ever come first, in the order in which
+  /// they were added. The others follow by the beginning of their time windows, then in the order in which
+  /// they were added. Stops and returns false when visit returns false; otherwise returns true.
   template <class Visitor>
   bool visit(const Layer& layer, std::size_t bucket, double t_begin, double t_end, Visitor&& visit) const {
     return visit_bucket(layer.buckets_[bucket], t_begin, t_end, visit);
