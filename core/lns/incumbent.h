@@ -1,6 +1,7 @@
 #pragma once
 
-// The plan that iterations begin with, the best one, and the plan states that follow it: one for each thread.
+// The incumbent, which iterations begin with; the best plan; and the plan states that follow the incumbent,
+// one for each thread.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,12 +20,11 @@
 
 namespace fleetplan::core {
 
-/// The plan that iterations begin with: a trajectory for each planned robot. See BestPlan for the best
-/// one.
+/// The plan that iterations begin with: a trajectory for each planned robot. BestPlan has the best plan.
 class Incumbent {
  public:
-  /// The trajectories in `state`, whose instance outlives this object; only those of the robots of `planned`
-  /// may be replaced.
+  /// Takes the trajectories in `state`, whose instance must outlive this object. Only the trajectories of the
+  /// robots of `planned` may be replaced.
   Incumbent(const PlanState& state, std::vector<std::size_t> planned);
 
   /// Whether the paths of robots may be smoothed.
@@ -36,7 +36,8 @@ class Incumbent {
   const std::vector<std::size_t>& followers() const { return followers_; }
   const Trajectory& trajectory(std::size_t robot) const { return trajectories_[robot]; }
   double cost(std::size_t robot) const { return trajectories_[robot].cost; }
-  /// The robot's share in the objective, and a lower bound of it for all trajectories that cost this much.
+  /// The robot's share in the objective, and a lower bound of the share of all trajectories that cost this
+  /// much.
   double share(std::size_t robot) const { return shares_[robot]; }
   double least_share(std::size_t robot, double cost) const;
   /// The cost from which on no trajectory of the robot has a share below `share`, seconds.
@@ -46,7 +47,7 @@ class Incumbent {
   double makespan() const { return cost(last_to_arrive()); }
   /// Grows with each replacement, 0 at first.
   std::int64_t version() const { return version_; }
-  /// The version of the plan since which it has the robot's trajectory.
+  /// The version of the plan that gave the robot its present trajectory.
   std::int64_t version(std::size_t robot) const { return versions_[robot]; }
   void replace(std::size_t robot, Trajectory trajectory);
 
@@ -62,15 +63,15 @@ class Incumbent {
   std::vector<std::int64_t> versions_;  // by robot
 };
 
-/// The best plan of a search whose incumbent may become worse for a while. Keeps the trajectories in which
-/// the two differ.
+/// The best plan of a search whose incumbent may become worse for a while. It stores only the trajectories in
+/// which the two differ.
 class BestPlan {
  public:
-  /// The incumbent outlives this object, and only this object changes it.
+  /// The incumbent must outlive this object, and only this object changes it.
   explicit BestPlan(Incumbent& incumbent) : incumbent_(incumbent) {}
 
   void replace(std::size_t robot, Trajectory trajectory);
-  /// Records a change; call it after its replacements. `gain` is by how much the objective fell, seconds;
+  /// Records a change; call it after its replacements. `gain`: by how much the objective fell, seconds;
   /// negative if it rose. Returns whether the incumbent is better than any plan before.
   bool changed(double gain);
 
@@ -88,24 +89,25 @@ class BestPlan {
 /// What one thread needs to search on its own: a plan state with the incumbent's trajectories.
 class Workspace {
  public:
-  /// A workspace with the caller's state, which follows the incumbent already.
+  /// A workspace with the caller's state, which already follows the incumbent.
   Workspace(PlanState& state, const Incumbent& incumbent, const StopCondition& stop);
-  /// A workspace with an instance like this one, but for these options, and a state of its own. Robots that
-  /// are not in the incumbent stay at their starts.
+  /// A workspace with its own state, and with a copy of this instance under these options. Robots that are
+  /// not in the incumbent stay at their starts.
   Workspace(const Instance& instance, const PlanOptions& options, const Incumbent& incumbent,
             const StopCondition& stop);
 
   PlanState& state() { return *state_; }
   bool has_own_state() const { return own_state_ != nullptr; }
   NeighbourhoodSelection& neighbourhoods() { return neighbourhoods_; }
-  /// Adopts all trajectories for the first time; false if `stop` is met first, and then it must not be used.
+  /// Adopts all trajectories for the first time. Returns false if `stop` is met first; then the workspace
+  /// must not be used.
   bool follow_incumbent(const StopCondition& stop);
   /// Adopts the trajectories that have been replaced in the incumbent since the last call.
   void update();
-  /// Updates with other trajectories for some robots, until the next update.
+  /// As update(), with other trajectories for some robots, until the next update.
   void update(const std::map<std::size_t, Trajectory>& others);
-  /// To be called when the trajectories of the state may differ from those of the last update, or may be
-  /// missing.
+  /// Must be called when the trajectories of the state may be missing, or may have changed since the last
+  /// update.
   void invalidate();
 
  private:
@@ -128,16 +130,22 @@ class WorkspacePool {
   /// for it.
   std::unique_ptr<Workspace> take();
   void give_back(std::unique_ptr<Workspace> workspace);
-  /// From now on, vertices have twice as many neighbours: searches take longer, and find better ways around
-  /// others. Returns false, and they keep theirs, if they have 32, without any-angle moves, with a horizon,
-  /// where the lattice is refined, which would take time again, and if time or memory do not suffice. All
-  /// workspaces have been given back; that with the caller's state leaves the pool.
+  /// From now on, vertices have twice as many neighbours. Searches take longer, and find better ways around
+  /// other robots. All workspaces must have been given back; the workspace with the caller's state leaves the
+  /// pool.
+  ///
+  /// Returns false, and changes nothing, in these cases:
+  ///
+  /// - Vertices have 32 neighbours already.
+  /// - There are no any-angle moves, or there is a horizon.
+  /// - The lattice is refined, because refining it again would take time.
+  /// - Time or memory do not suffice.
   bool add_moves();
   /// Updates the workspace with the caller's state, with other trajectories for some robots. All workspaces
-  /// have been given back, and the incumbent does not change.
+  /// must have been given back, and the incumbent must not change meanwhile.
   void update_callers_state(const std::map<std::size_t, Trajectory>& others);
-  /// Frees all workspaces but that with the caller's state, which is in the pool from now on. Returns false
-  /// if nothing changes.
+  /// Frees all workspaces except the one with the caller's state, which is in the pool from now on. Returns
+  /// false if nothing changes.
   bool release_others();
 
  private:

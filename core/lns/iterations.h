@@ -1,6 +1,6 @@
 #pragma once
 
-// The iterations of large neighbourhood search: what they choose by recent success, their results, and what
+// The iterations of large neighbourhood search: how they choose by recent success, their results, and what
 // the search has left to gain.
 
 #include <cstddef>
@@ -46,7 +46,7 @@ class AdaptiveChoice {
   std::vector<Record> records_;
 };
 
-/// Chooses the robot whose cost an iteration tries to reduce: with a probability that grows with its delay
+/// Chooses the robot whose cost an iteration tries to reduce. The probability grows with the robot's delay
 /// (cost minus lower bound) and falls with its recent failures.
 class DelayedChoice {
  public:
@@ -81,7 +81,7 @@ class AdaptiveParameters {
 
     Neighbourhood neighbourhood() const { return static_cast<Neighbourhood>(kind); }
     std::size_t robots() const;
-    /// Of the searches; none if a robot is smoothed only.
+    /// The settings of searches. None if the iteration only smooths one robot.
     std::optional<SearchSettings> search_settings() const;
   };
 
@@ -98,12 +98,12 @@ class AdaptiveParameters {
   AdaptiveChoice limits_;
 };
 
-/// What the search has left to gain: the delays of the robots, and which of them are known to have no cheaper
+/// What the search has left to gain: the delays of the robots, and which robots are known to have no cheaper
 /// trajectory.
 class Exhaustion {
  public:
-  /// A search for a cheaper trajectory of a delayed robot, as if no other planned robot were there; what it
-  /// finds, and what the robot has, are smoothed as well.
+  /// A search for a cheaper trajectory of a delayed robot, as if no other planned robot were there. The
+  /// trajectory found is smoothed, and so is the robot's own.
   struct Test {
     std::size_t robot = 0;
     std::int64_t version = 0;  // version of the robot's trajectory
@@ -114,26 +114,27 @@ class Exhaustion {
     SearchResult result{std::nullopt, false, 0};
   };
 
-  /// `for_makespan`: whether the objective is the makespan. The arguments outlive this object.
+  /// `for_makespan`: whether the objective is the makespan. The arguments must outlive this object.
   Exhaustion(const Incumbent& incumbent, const TautPathBounds& bounds, bool for_makespan)
       : incumbent_(incumbent),
         bounds_(bounds),
         for_makespan_(for_makespan),
         cheapest_(incumbent.robot_count()) {}
 
-  /// The delay of a robot, weighted seconds: its share in the objective minus the lower bound of that, >= 0.
+  /// The delay of a robot, weighted seconds: its share in the objective minus a lower bound of the share, >=
+  /// 0.
   double delay(std::size_t robot) const;
   /// Whether the objective is equal to its lower bound, or no delayed robot can become cheaper.
   bool nothing_left() const;
 
-  /// Returns the next test; none if no robot needs one, while one runs, or if the tests have had their share
-  /// of the effort. `effort`: of the search so far, in expansions.
+  /// Returns the next test. None if no robot needs a test, while one runs, or if the tests have had their
+  /// share of the effort. `effort`: the effort of the search so far, in expansions.
   std::optional<Test> next_test(std::int64_t effort);
   void run(Test& test, PlanState& state, const StopCondition& stop) const;
   void learn(const Test& test);
   /// Whether a robot is known to have no cheaper trajectory.
   bool has_proofs() const;
-  /// Forgets what was learned: from now on, robots have more moves.
+  /// Forgets the proofs, because robots have more moves from now on.
   void forget();
 
  private:
@@ -162,13 +163,12 @@ struct Iteration {
   NeighbourhoodResult result;
 };
 
-/// The turns of robots that are smoothed one after the other, again and again, until none of them gains by
-/// it.
+/// The turns of robots that are smoothed one after the other, again and again, until no robot gains.
 class SmoothingTurns {
  public:
   void begin(std::vector<std::size_t> robots);
   bool are_over() const { return robots_.empty(); }
-  /// The robot whose turn is next, of those that satisfy `may_gain`; none, and over, if there is none.
+  /// The next robot that satisfies `may_gain`. If there is none, returns none, and the turns are over.
   std::optional<std::size_t> next(const std::function<bool(std::size_t)>& may_gain);
   /// Records whether a robot has gained in its turn.
   void learn(bool gained);
@@ -179,10 +179,11 @@ class SmoothingTurns {
   std::size_t in_vain_ = 0;          // turns since one gained
 };
 
-/// The steps of an iteration: choose, run, accept. While one runs, others may be chosen and accepted.
+/// The steps of an iteration: choose, run, accept. While an iteration runs, others may be chosen and
+/// accepted.
 class Iterations {
  public:
-  /// `for_makespan`: whether the objective is the makespan. The arguments outlive this object.
+  /// `for_makespan`: whether the objective is the makespan. The arguments must outlive this object.
   Iterations(Incumbent& incumbent, const Exhaustion& exhaustion, const TautPathBounds& bounds, Random& random,
              const StopCondition& stop, bool for_makespan)
       : incumbent_(incumbent),
@@ -197,19 +198,19 @@ class Iterations {
 
   /// Chooses what to try next, by recent success.
   Iteration choose();
-  /// Goes back to the best plan, from which iterations smooth one robot after the other, the most delayed one
-  /// first, until none of them gains by it.
+  /// Goes back to the best plan. From then on, iterations smooth one robot after the other, the most delayed
+  /// robot first, until no robot gains.
   void begin_smoothing();
   /// Plans the neighbourhood again, in a workspace with the incumbent at the time of choose(). May run on any
   /// thread.
   void run(Iteration& iteration, Workspace& workspace) const;
-  /// Learns from the result and makes its change to the incumbent, unless changes made since choose()
-  /// conflict with it. Returns whether the incumbent is better than any plan before. After many iterations
-  /// without that, it becomes the best plan again. The workspace may be updated.
+  /// Learns from the result and applies its change to the incumbent, unless it conflicts with changes made
+  /// since choose(). Returns whether the incumbent is better than any plan before. After many iterations
+  /// without a better plan, the incumbent becomes the best plan again. The workspace may be updated.
   bool accept(Iteration& iteration, Workspace& workspace);
   /// Makes the best plan the incumbent. Returns false if it is already.
   bool return_to_best();
-  /// Iterations with a search since one of them found a better plan than any before.
+  /// The number of iterations with a search since the last new best plan.
   std::int64_t vain() const { return vain_; }
 
   BestPlan& best() { return best_; }

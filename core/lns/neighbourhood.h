@@ -1,7 +1,7 @@
 #pragma once
 
-// The robots that an iteration of large neighbourhood search plans again together: which they are, and how
-// they are planned.
+// The robots that an iteration of large neighbourhood search plans again together: how they are selected, and
+// how they are planned.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,10 +15,10 @@
 
 namespace fleetplan::core {
 
-/// How to select the robots that are planned again together with a delayed one.
+/// How to select the robots that are planned again together with a delayed robot.
 enum class Neighbourhood : std::uint8_t {
-  conflicting,  // robots that conflict with the path that it would take alone on the map; then those that
-                // conflict with such paths of these robots
+  conflicting,  // robots that conflict with the robot's path alone on the map; then robots that conflict with
+                // such paths of these robots
   nearest,      // robots nearest to it at a random time
   at_goal,      // robots that pass near its goal
   random,
@@ -77,8 +77,8 @@ struct NeighbourhoodOptions {
   double max_loss = 0.0;         // weighted seconds, >= 0; by how much the sum may rise
   double cost_limit = kForever;  // seconds; all costs have to be below it
   double min_gain_share = 0.0;   // [0, 1); share of the first robot's delay that it has to gain at least
-  /// Limits of every search; the bound follows from the other members. None: the first robot's path is
-  /// smoothed, and nothing else.
+  /// Limits of every search. The bound follows from the other members. None: only the first robot's path is
+  /// smoothed.
   std::optional<SearchSettings> settings = SearchSettings();
   int tries = 100;  // to smooth each path
 };
@@ -89,11 +89,14 @@ struct NeighbourhoodResult {
   double effort = 0.0;  // in expansions, of searches and smoothing
 };
 
-/// Plans the robots of a neighbourhood again (Li et al., MAPF-LNS, IJCAI 2021): first robots.front() as if
-/// the others of `robots` were absent, then those of them that conflict with it, and so on. Trajectories that
-/// conflict with further robots of `robots` are accepted only if there is no other. A search ends when no
-/// trajectory can bring the required gain any more, smoothed as much as the robot's was: what it finds is
-/// smoothed. All of `robots` have trajectories and bounds. The state is left unchanged.
+/// Plans the robots of a neighbourhood again (Li et al., MAPF-LNS, IJCAI 2021). First robots.front() is
+/// planned as if the other `robots` were absent, then the robots that conflict with it, and so on.
+/// Trajectories that conflict with further robots of `robots` are accepted only if there is no other
+/// trajectory.
+///
+/// Trajectories that are found are smoothed. So a search ends when no trajectory can reach the required gain
+/// any more, even if it is smoothed as much as the robot's was. All of `robots` have trajectories and bounds.
+/// The state is left unchanged.
 NeighbourhoodResult plan_neighbourhood(PlanState& state, const std::vector<std::size_t>& robots,
                                        const TautPathBounds& bounds, const NeighbourhoodOptions& options,
                                        Random& random, const StopCondition& stop);

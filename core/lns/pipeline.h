@@ -1,7 +1,6 @@
 #pragma once
 
-// What lets iterations of large neighbourhood search overlap: steps that run at the same time and end in
-// order.
+// Lets iterations of large neighbourhood search overlap: they run at the same time and end in order.
 
 #include <condition_variable>
 #include <cstddef>
@@ -12,21 +11,23 @@
 
 namespace fleetplan::core {
 
-/// Steps that run at the same time on several threads and yet depend on their order alone. Step k begins with
-/// what the steps up to k - lag have brought, on any number of threads. So a thread waits only if step
-/// k - lag still runs.
+/// Steps that run at the same time on several threads, but whose results depend only on their order. Step k
+/// begins with the results of the steps up to k - lag, on any number of threads. So a thread waits only if
+/// step k - lag still runs.
 template <class Step>
 class Pipeline {
  public:
-  /// A step that runs, or none. It ends with this object.
+  /// A step that runs, or none. The step ends when this object is destroyed.
   class Running;
 
   explicit Pipeline(std::size_t lag) : lag_(lag) {}
 
   /// Begins the next step, on the thread that will run it. Waits until the step `lag` before it has ended,
-  /// and completes that one. `complete(step)` and `next()` are called in the order of the steps, one at a
-  /// time. `next()` returns the step, or nothing if there is none. What they throw is passed on: a step that
-  /// could not be completed remains, and one that could not be made does not begin.
+  /// and completes that step. `complete(step)` and `next()` are called in the order of the steps, one at a
+  /// time. `next()` returns the step, or nothing if there is none.
+  ///
+  /// Exceptions are passed on. A step whose completion throws remains. A step whose `next()` throws does not
+  /// begin.
   template <class Complete, class Next>
   Running begin(const Complete& complete, const Next& next) {
     std::unique_lock lock(mutex_);
@@ -38,7 +39,7 @@ class Pipeline {
     return {*this, entries_.back()};
   }
 
-  /// Completes the steps that are left; all of them have ended.
+  /// Completes the steps that are left. All of them must have ended.
   template <class Complete>
   void complete_all(const Complete& complete) {
     while (!entries_.empty()) complete_first(complete);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Makes paths shorter without a search: their bends leave the lattice.
+// Makes paths shorter without a search, by bends that leave the lattice.
 
 #include <cstddef>
 #include <cstdint>
@@ -26,14 +26,15 @@ struct Smoothed {
   std::int64_t timed = 0;                // paths that were timed, see TimedPath
 };
 
-/// Moves, removes and inserts bends of the robot's path, at random, `tries` times, and keeps what makes its
-/// share in the objective less (see share_of()). Waits become shorter as well where others leave time. The
-/// trajectory passes all others; a reservation of the robot itself is left out. Paths that TimedPath does not
-/// take stay as they are. The state is left unchanged.
+/// Moves, removes and inserts bends of the robot's path, at random, `tries` times. Keeps changes that reduce
+/// its share in the objective (see share_of()). Waits become shorter as well where other robots leave time.
+///
+/// The trajectory passes all other robots; a reservation of the robot itself is left out. Paths that
+/// TimedPath does not take stay as they are. The state is left unchanged.
 Smoothed smooth(PlanState& state, std::size_t robot, const Trajectory& trajectory, int tries, Random& random,
                 const StopCondition& stop);
 
-/// Smooths the new trajectories of these robots, briefly, one after the other, in a share of the time that is
+/// Smooths the new trajectories of these robots briefly, one after the other, in a share of the time that is
 /// left. Counts them in `progress`. Returns whether it ended early.
 bool smooth_briefly(PlanState& state, std::vector<std::size_t> robots, Random& random,
                     const StopCondition& stop, ProgressReport& progress);
