@@ -1,7 +1,7 @@
 #pragma once
 
 // Headers that most sources include, directly or through a header of core/. CMake precompiles them, which
-// halves the time of a build. Sources still include what they use: builds without precompiled headers
+// halves the time of a build. Sources still include what they use. Builds without precompiled headers
 // (CMAKE_DISABLE_PRECOMPILE_HEADERS) check that.
 
 #include <Eigen/Core>

@@ -9,8 +9,8 @@
 
 namespace fleetplan::core {
 
-/// The map divided into square buckets; finds those that a line crosses and those that a moving disk comes
-/// near.
+/// The map divided into square buckets. Finds the buckets that a line crosses, and the buckets that a moving
+/// disk comes near.
 class BucketGrid {
  public:
   BucketGrid(double width, double height, double bucket_size)
@@ -22,8 +22,8 @@ class BucketGrid {
 
   std::size_t at(const Position& p) const { return index(column_of(p.x()), row_of(p.y())); }
 
-  /// Calls visit(bucket, enter, exit) for the buckets that the segment crosses, in order; enter and exit are
-  /// fractions of its length. Stops when visit returns false; returns false then, and true otherwise.
+  /// Calls visit(bucket, enter, exit) for the buckets that the segment crosses, in order. `enter` and `exit`
+  /// are fractions of its length. Stops and returns false when visit returns false; otherwise returns true.
   template <class Visitor>
   bool walk(const Position& from, const Position& to, Visitor&& visit) const {
     int column = column_of(from.x());
@@ -50,11 +50,11 @@ class BucketGrid {
     }
   }
 
-  /// Calls visit(bucket, t_begin, t_end) for every bucket that the disk's centre comes within `reach` of,
-  /// with a time window that contains all such times. `reach` is exceeded by up to half a bucket's diagonal.
+  /// Calls visit(bucket, t_begin, t_end) for every bucket that the disk's centre comes within `reach` of. The
+  /// time window contains all such times. `reach` may be exceeded by up to half a bucket's diagonal.
   template <class Visitor>
   void cover(const MovingDisk& disk, double reach, Visitor&& visit) const {
-    // The bucket's circumscribed circle, rounded up; times are those of the mean speed.
+    // The bucket's circumscribed circle, rounded up. Times assume the mean speed.
     const double margin = reach + disk.sag() + 0.7072 * size_;
     const double speed = disk.velocity.norm();
     const bool moving = speed > 0.0;

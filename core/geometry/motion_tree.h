@@ -28,8 +28,8 @@ struct MotionBox {
   }
 };
 
-/// Moving disks that never change, as a tree of boxes in space and time (a packed R-tree in the order of a
-/// Z-curve; Kamel and Faloutsos, CIKM 1993). Long motions are entered in pieces, so that their boxes are
+/// Moving disks that never change, as a tree of boxes in space and time: a packed R-tree in the order of a
+/// Z-curve (Kamel and Faloutsos, CIKM 1993). Long motions are entered in pieces, so that their boxes are
 /// small. The number of pieces is bounded: a million disks need about 60 MB, whatever the size of the map.
 class MotionTree {
  public:
@@ -38,7 +38,7 @@ class MotionTree {
     MovingDisk motion;
     double radius = 0.0;  // metres
   };
-  /// Where queries are: their disks, of at most this radius, have their centres in [0, width] x [0, height].
+  /// The range of queries: their disks have at most this radius, and centres in [0, width] x [0, height].
   struct Extent {
     double width = 0.0;
     double height = 0.0;
@@ -46,15 +46,15 @@ class MotionTree {
   };
 
   MotionTree() = default;
-  /// When the stop condition is met first, the tree is not finished and has no use.
+  /// If the stop condition is met first, the tree is not finished and must not be used.
   MotionTree(std::vector<Disk> disks, const Extent& extent, const StopCondition& stop);
 
   bool finished() const { return finished_; }
   const Disk& operator[](std::size_t index) const { return disks_[index]; }
 
-  /// Calls visit(index) for every disk that could come within `reach`, in addition to its radius, of the
-  /// centre of `mine` at times that differ by at most `margin` seconds. A disk may be visited more than once.
-  /// Stops when visit returns false; returns false then, and true otherwise.
+  /// Calls visit(index) for every disk that could come near the centre of `mine`: within `reach` in addition
+  /// to its own radius. Times may differ by up to `margin` seconds. A disk may be visited more than once.
+  /// Stops and returns false when visit returns false; otherwise returns true.
   template <class Visitor>
   bool visit(const MovingDisk& mine, double reach, double margin, Visitor&& visit) const {
     if (leaves_.empty()) return true;
@@ -62,7 +62,7 @@ class MotionTree {
   }
 
  private:
-  /// Boxes of a level that one box of the level above contains, and pieces of a leaf.
+  /// How many boxes of a level one box of the level above contains, and how many pieces a leaf contains.
   static constexpr std::size_t kFanOut = 8;
 
   struct Query {

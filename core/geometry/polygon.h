@@ -22,16 +22,16 @@ class Polygon {
 
   /// Whether a point is inside, by the even-odd rule. Either answer is possible on the border.
   bool contains(const Position& point) const;
-  /// Whether the bounding boxes of the polygon and of the segment between two points (possibly equal) have a
-  /// point in common.
+  /// Whether the bounding boxes of the polygon and of the segment between two points (possibly equal) share a
+  /// point.
   bool box_meets(const Position& a, const Position& b) const {
     return std::min(a.x(), b.x()) <= high_.x() && std::max(a.x(), b.x()) >= low_.x() &&
            std::min(a.y(), b.y()) <= high_.y() && std::max(a.y(), b.y()) >= low_.y();
   }
-  /// Whether some point of the segment from `from` to `to` (possibly equal) is nearer than `distance` (> 0,
+  /// Whether any point of the segment from `from` to `to` (possibly equal) is nearer than `distance` (> 0,
   /// metres) to the polygon.
   bool comes_near(const Position& from, const Position& to, double distance) const;
-  /// The parts of a segment inside, as fractions of it.
+  /// A part of a segment that is inside, as fractions of the segment.
   struct Span {
     double first = 0.0;
     double last = 1.0;
@@ -49,7 +49,7 @@ class Polygon {
   Position high_;
 };
 
-/// Polygons that are blocked like walls, with an index of where they are.
+/// Polygons that are blocked like walls, with an index by position.
 class BlockedPolygons {
  public:
   /// No polygons.
@@ -60,8 +60,8 @@ class BlockedPolygons {
   bool empty() const { return polygons_.empty(); }
   const std::vector<Polygon>& polygons() const { return polygons_; }
 
-  /// Whether some point of the segment from `from` to `to` (possibly equal) is nearer than `distance` (> 0,
-  /// metres) to one of the polygons.
+  /// Whether any point of the segment from `from` to `to` (possibly equal) is nearer than `distance` (> 0,
+  /// metres) to any of the polygons.
   bool come_near(const Position& from, const Position& to, double distance) const;
 
  private:
@@ -76,7 +76,7 @@ class BlockedPolygons {
 
   std::vector<Polygon> polygons_;
   Position squares_per_metre_{0.0, 0.0};
-  // The polygons whose boxes overlap a square: those of square k, counted row by row, are at near_ from
+  // The polygons whose boxes overlap a square. For square k, counted row by row, they are in near_ from
   // begin_[k] to begin_[k + 1].
   std::vector<std::uint32_t> begin_;
   std::vector<std::uint32_t> near_;

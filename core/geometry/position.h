@@ -1,8 +1,8 @@
 #pragma once
 
-// Positions, headings and poses in the map frame, which all of core/ uses: metres, origin in the lower-left
-// corner of the map, x right, y up. The API adds and subtracts the map's world origin, so that planning stays
-// precise even if world coordinates are large (UTM).
+// Positions, headings and poses in the map frame, which all of core/ uses. Units are metres; the origin is
+// the lower-left corner of the map, x right, y up. The API adds and subtracts the map's world origin, so
+// planning stays precise even with large world coordinates (UTM).
 
 #include <Eigen/Core>
 #include <cmath>
@@ -24,7 +24,7 @@ struct Pose {
   double theta = 0.0;
 };
 
-/// Whether the two are the same up to rounding, see kSamePosition.
+/// Whether the two positions are the same up to rounding, see kSamePosition.
 inline bool is_same_position(const Position& a, const Position& b) {
   return (a - b).squaredNorm() <= kSamePosition * kSamePosition;
 }
@@ -37,8 +37,8 @@ inline double normalize_angle(double angle) {
   return wrapped <= -kPi ? kPi : wrapped;
 }
 
-/// Returns the signed rotation in (-pi, pi] that turns heading `from` into heading `to` the shorter way;
-/// exactly half a turn is counter-clockwise.
+/// Returns the signed rotation in (-pi, pi] that turns heading `from` into heading `to` the shorter way.
+/// Exactly half a turn is counter-clockwise.
 inline double rotation_between(double from, double to) { return normalize_angle(to - from); }
 
 /// Returns the absolute difference of two normalised headings, in [0, pi].
@@ -47,7 +47,7 @@ inline double angle_between(double a, double b) {
   return d <= std::numbers::pi ? d : 2.0 * std::numbers::pi - d;
 }
 
-/// Returns the heading of the other end of a robot with a normalised heading; normalised.
+/// Returns the heading of the robot's other end, for a normalised heading; normalised.
 inline double opposite_heading(double heading) {
   return heading > 0.0 ? heading - std::numbers::pi : heading + std::numbers::pi;
 }

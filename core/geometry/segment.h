@@ -1,6 +1,6 @@
 #pragma once
 
-// Segments of the plane, alone, with times and with the disks of robots; and intervals of time.
+// Segments of the plane: alone, with times, and with the disks of robots. Intervals of time.
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace fleetplan::core {
 
 inline constexpr double kForever = std::numeric_limits<double>::infinity();
 
-/// A straight line between two positions; of length 0 for a robot that stands still.
+/// A straight line between two positions. Its length is 0 for a robot that stands still.
 struct Segment {
   Position from{0.0, 0.0};
   Position to{0.0, 0.0};
@@ -35,7 +35,8 @@ inline double distance_to_segment(const Position& point, const Segment& segment)
   return (segment.from + nearest_share(segment, point) * (segment.to - segment.from) - point).norm();
 }
 
-/// How far one robot is along a first segment and another one along a second segment, as shares in [0, 1].
+/// The progress of one robot along a first segment, and of another robot along a second segment, as shares in
+/// [0, 1].
 struct Shares {
   double first = 0.0;
   double second = 0.0;
@@ -47,7 +48,7 @@ struct NearestShares {
   double distance = 0.0;
 };
 
-/// Returns where two segments are nearest to each other: where they cross, or else at an end of one of them.
+/// Returns where two segments are nearest to each other: where they cross, or else at an end of one segment.
 inline NearestShares nearest_shares(const Segment& first, const Segment& second) {
   constexpr double kParallelLines = 1e-12;  // the sine of the angle of lines that are parallel: rounding
   const Position d = first.to - first.from;
@@ -86,18 +87,18 @@ inline double elapsed_share(double covered, double ramp) {
   return std::min(1.0, 2.0 * covered / (start + root));
 }
 
-/// A segment traversed at constant acceleration, which mostly is 0, during [t_start, t_end], seconds. A wait
-/// has from == to; only a wait may have no end.
+/// A segment traversed at constant acceleration, usually 0, during [t_start, t_end], seconds. A wait has from
+/// == to. Only a wait may have no end.
 struct TimedSegment {
   Segment path;
   double t_start = 0.0;
   double t_end = 0.0;
-  /// How much the speed changes: it is (1 - ramp) times the mean speed at the begin and (1 + ramp) times at
-  /// the end. In [-1, 1]; 0 at constant speed, 1 from rest, -1 to rest.
+  /// How much the speed changes, in [-1, 1]. The speed is (1 - ramp) times the mean speed at the beginning,
+  /// and (1 + ramp) times at the end. 0: constant speed; 1: from rest; -1: to rest.
   double ramp = 0.0;
 
   double duration() const { return t_end - t_start; }
-  /// The part from `t` on, which is within it.
+  /// The part from `t` on. `t` is within the segment.
   TimedSegment from_time(double t) const {
     const double elapsed = (t - t_start) / duration();
     const double speed = 1.0 - ramp * (1.0 - 2.0 * elapsed);  // at `t`, as a share of the mean speed
@@ -139,7 +140,7 @@ struct LargestDisk {
   double radius = 0.0;       // metres; neither inflation nor vicinity included
   double pair_radius = 0.0;  // metres, to other robots: with inflation and vicinity
 
-  /// To other robots, while the robot has a radius that may be smaller.
+  /// The radius towards other robots, if the robot has a radius that may be smaller.
   double pair_radius_with(double smaller) const { return pair_radius - (radius - smaller); }
 };
 
@@ -151,8 +152,8 @@ struct SafeInterval {
   bool contains(double t) const { return begin <= t && t <= end; }
 };
 
-/// Open interval (begin, end) of times at which disks overlap, or of departures that lead to an overlap.
-/// Open, because touching disks do not collide.
+/// Open interval (begin, end) of times at which disks overlap, or of departures that lead to an overlap. It
+/// is open because touching disks do not collide.
 struct UnsafeInterval {
   double begin = 0.0;
   double end = 0.0;

@@ -1,8 +1,8 @@
 #pragma once
 
-// How speed rises and falls along a straight line, or during a rotation, when acceleration is limited: at
-// constant acceleration up to a cruise speed, at that speed, and at constant deceleration down from it. The
-// cruise takes no time where the way is short. Formulas: docs/acceleration.md.
+// How speed changes along a straight line, or during a rotation, when acceleration is limited. It rises at
+// constant acceleration to a cruise speed, stays constant, and falls at constant deceleration. On a short
+// way, the constant speed takes no time. Formulas: docs/acceleration.md.
 
 #include <algorithm>
 #include <cmath>
@@ -12,12 +12,12 @@
 
 namespace fleetplan::core {
 
-/// What changes of speed take, per metre (or radian) per second of speed; 0 without a limit.
+/// The time that changes of speed take, per metre (or radian) per second of speed; 0 without a limit.
 struct Inertia {
   double rise = 0.0;  // seconds squared per metre: 1 / acceleration
   double fall = 0.0;  // 1 / deceleration
 
-  /// Whether there is a limit; every move of a search asks that.
+  /// Whether there is a limit. Stored, because every move of a search asks.
   bool is_limited = rise + fall > 0.0;
 
   bool operator==(const Inertia&) const = default;
@@ -30,7 +30,7 @@ struct Inertia {
     return distance >= speed * speed * mean ? distance / speed + speed * mean
                                             : 2.0 * std::sqrt(distance * mean);
   }
-  /// The part of that time that starting and stopping take; it never falls with the distance.
+  /// The part of that time that starting and stopping take. It never falls with the distance.
   double loss(double distance, double speed) const {
     return is_limited ? time(distance, speed) - distance / speed : 0.0;
   }
@@ -59,28 +59,29 @@ struct LimitedPart {
   double end_limit = kForever;  // metres per second, at its end
 };
 
-/// Returns by part the fastest profile of a translation through all of them, to rest. A start speed from
-/// which it could not come to rest is lowered to the greatest from which it can.
+/// Returns, for each part, the fastest profile of a translation through all of them, to rest. If the robot
+/// could not come to rest from the start speed, the start speed is lowered to the greatest possible.
 std::vector<SpeedProfile> fastest_profiles(const std::vector<LimitedPart>& parts, const Inertia& inertia,
                                            double start_speed = 0.0);
 
-/// Returns the fastest profile from rest to rest, of a rotation as well.
+/// Returns the fastest profile from rest to rest, also for rotations.
 SpeedProfile fastest_profile(double distance, double speed, const Inertia& inertia);
 
 /// Returns the seconds that a distance takes with this profile.
 double duration(const SpeedProfile& profile, double distance);
 
 /// Returns the speed, and the distance covered, `t` seconds after the begin of an action with this profile
-/// that takes so many seconds; and when it has covered a distance.
+/// and this duration. Also returns the time at which it has covered a distance.
 double speed_after(const SpeedProfile& profile, double duration, double t);
 double covered_after(const SpeedProfile& profile, double duration, double t);
 double elapsed_at(const SpeedProfile& profile, double duration, double distance);
 
-/// Returns the greatest speed between two distances from where the profile begins, of so many in all.
+/// Returns the greatest speed between two distances from where the profile begins. The whole way is `length`,
+/// metres (or radians).
 double fastest_between(const SpeedProfile& profile, double first, double last, double length);
 
 /// Returns the parts of a move with this profile in which its acceleration is constant: at most three, each
-/// from the end of the one before; none of them is shorter than kSameTime.
+/// from the end of the part before. No part is shorter than kSameTime.
 std::vector<TimedSegment> phases(const TimedSegment& move, const SpeedProfile& profile);
 
 }  // namespace fleetplan::core

@@ -16,8 +16,9 @@
 
 namespace fleetplan::core {
 
-/// A lattice finer than that of the search, and where a disk of one radius may be on it: the centres of the
-/// cells, or also the middles between them. Exact; the distance transform decides nearly always.
+/// A lattice finer than the lattice of the search, with the nodes where a disk of one radius may be. Nodes
+/// are the centres of the cells, and perhaps also the middles between them. Exact; the distance transform
+/// decides nearly always.
 class FineNodes {
  public:
   /// The nodes for a disk of `radius` metres. `half`: whether the middles between cells are nodes, too.
@@ -36,15 +37,15 @@ class FineNodes {
   /// Whether the disk fits at the node.
   bool fits(int column, int row) const;
   /// Whether the disk fits at all places within half the longest step from the node. True only where that is
-  /// obvious.
+  /// easy to see.
   bool is_ample(int column, int row) const;
-  /// Whether tests take up to thousands of times as long as usual: of large disks, or among polygons.
+  /// Whether tests take up to thousands of times as long as usual: for large disks, or among polygons.
   bool are_costly() const { return !between_known_ || !sight_.polygons().empty(); }
-  /// Whether the disk, which fits at two neighbouring nodes, may sweep the step between them.
+  /// Whether the disk may sweep the step between two neighbouring nodes at which it fits.
   bool may_step(const Cell& from, const Cell& to) const;
 
  private:
-  /// Squared distances, from the centre of the cell of a node to the centre of the nearest blocked cell, that
+  /// Squared distances from the centre of a node's cell to the centre of the nearest blocked cell. They
   /// decide whether the disk fits at the node.
   struct Limits {
     int fits_from = 0;      // the disk fits
@@ -60,7 +61,7 @@ class FineNodes {
     return 3 * static_cast<std::size_t>(rows + 1) + static_cast<std::size_t>(columns + 1);
   }
   Cell cell_of(int column, int row) const;
-  /// The kind of a node, 0 to 3: on both grid lines, on a vertical one, on a horizontal one, or on none.
+  /// The kind of a node, 0 to 3: on both grid lines, on a vertical line, on a horizontal line, or on no line.
   std::size_t kind_of(int column, int row) const {
     return half_ ? static_cast<std::size_t>((column % 2) * 2 + row % 2) : 3;
   }
@@ -82,22 +83,22 @@ class FineNodes {
   int columns_;
   int rows_;
   std::array<Limits, 4> limits_{};  // by kind of node
-  /// The cells, from that of the node, that a step may sweep although the disk fits at both ends: by kind of
-  /// node and step. Not known for large disks.
+  /// The cells that a step may sweep although the disk fits at both ends, relative to the node's cell. By
+  /// kind of node and step. Not known for large disks.
   std::array<std::array<std::vector<Cell>, kSteps>, 4> between_;
   bool between_known_;
 };
 
 /// The fine nodes where a disk fits, each with the nearest vertex of the lattice along steps between nodes: a
-/// brushfire from all vertices. Nodes farther than a few spacings from any get vertices of their own. Blocks
-/// of nodes that are open everywhere are not searched: all vertices in them are linked.
+/// brushfire from all vertices. Nodes farther than a few spacings from any vertex get additional vertices.
+/// Blocks of nodes that are open everywhere are not searched; all vertices in them are linked.
 class FineRegions {
  public:
-  /// Lengths are in fifths of the pitch of the nodes; a diagonal step counts 7.
+  /// Lengths are in fifths of the pitch of the nodes. A diagonal step counts 7.
   static constexpr int kAxis = 5;
   static constexpr int kDiagonal = 7;
 
-  /// Two nodes side by side in the regions of different vertices.
+  /// Two neighbouring nodes in the regions of different vertices.
   struct Touch {
     Cell one;
     Cell other;
@@ -111,7 +112,7 @@ class FineRegions {
   /// Finds the regions. Returns false if the stop condition was met first.
   bool find(const StopCondition& condition);
 
-  /// The additional vertices; their ids follow those of the lattice.
+  /// The additional vertices. Their ids follow the ids of the lattice.
   const std::vector<Position>& added() const { return added_; }
   /// The position of a vertex of the lattice or of an additional one, metres.
   Position position(int vertex) const;

@@ -1,7 +1,10 @@
 #pragma once
 
-// Where robots may stop and move on the map, without regard to other robots: the lattice, the vertices that
-// refine it, and the free moves of robots of one radius.
+// Where robots may stop and move on the map, without regard to other robots:
+//
+// - the lattice,
+// - the vertices that refine it,
+// - and the free moves of robots of one radius.
 
 #include <cstddef>
 #include <cstdint>
@@ -29,9 +32,9 @@ struct Displacement {
   static Displacement between(const Position& from, const Position& to);
 };
 
-/// The vertices at which robots may stop: the centres of squares as large as the spacing, counted from the
-/// lower left of the map and numbered row by row. Those of the map's resolution are the cells. Which of them
-/// are blocked is not part of the lattice (see LineOfSight).
+/// The vertices at which robots may stop. They are the centres of squares whose side is the spacing, counted
+/// from the lower left of the map and numbered row by row. If the spacing is the map's resolution, the
+/// squares are the cells. The lattice does not know which vertices are blocked (see LineOfSight).
 class Lattice {
  public:
   /// One lattice move.
@@ -55,8 +58,8 @@ class Lattice {
   double spacing() const { return spacing_; }
   int vertex_count() const { return columns_ * rows_; }
   std::span<const Step> steps() const { return steps_; }
-  /// The least length of a straight line as a share of the lattice moves between its ends, without obstacles:
-  /// the cosine of half the angle between neighbouring moves.
+  /// The least ratio of a straight line's length to the lattice moves between its ends, without obstacles. It
+  /// is the cosine of half the angle between neighbouring moves.
   double least_straight() const { return least_straight_; }
 
   Position position(int vertex) const {
@@ -96,27 +99,28 @@ class Lattice {
   double spacing_;
   std::vector<Step> steps_;
   double least_straight_;
-  // Headings and lengths of displacements by fewer columns and rows than these; by row, then column.
+  // A table has the headings and lengths of displacements by fewer columns and rows than these. By row, then
+  // column.
   int table_columns_;
   int table_rows_;
   std::vector<Displacement> first_quadrant_;
 };
 
-/// Returns the default spacing of the lattice for a robot of this radius, metres: the map's resolution; where
-/// that is at most a quarter of the radius, its largest odd multiple up to the radius, so that vertices are
-/// centres of cells as well.
+/// Returns the default spacing of the lattice for a robot of this radius, metres. It is the map's resolution
+/// r, unless r is at most a quarter of the radius. Then it is the largest odd multiple of r up to the radius,
+/// so that vertices are still centres of cells.
 double default_lattice_spacing(const OccupancyGrid& grid, double radius);
 
-/// The vertices that refine a lattice for robots of one radius, where the way past the obstacles is too
-/// narrow for the lattice, and their links. Their ids follow those of the lattice.
+/// The vertices and links that refine a lattice for robots of one radius, where the way past obstacles is too
+/// narrow for the lattice. Their ids follow the ids of the lattice.
 class FinerVertices {
  public:
-  /// A link from a vertex to another one; both may be vertices of the lattice or finer ones.
+  /// A link from one vertex to another. Each may be a vertex of the lattice or a finer vertex.
   using Link = std::pair<int, int>;
 
   /// No vertices.
   FinerVertices() = default;
-  /// `first` is the id of the first finer vertex, after those of the lattice. `links` may be given in one
+  /// `first` is the id of the first finer vertex, after the ids of the lattice. `links` may be given in one
   /// direction or in both.
   FinerVertices(int first, std::vector<Position> positions, std::vector<Link> links);
 

@@ -12,22 +12,23 @@
 
 namespace fleetplan::core {
 
-/// Static feasibility of disks of any radius on the grid (paper, "Estimating the feasibility of the move
+/// Where disks of any radius may stand and move on the grid (paper, "Estimating the feasibility of the move
 /// w.r.t. static obstacles"). Exact, without rasterising per radius.
 ///
 /// The distance transform bounds the distance of every point from the obstacles, to within about a cell. A
-/// move is followed in steps as long as that leaves clear (sphere tracing; Hart, 1996), which decides most
-/// moves. Where the bounds leave the disk's radius in doubt, the vertical extent of the swept disk in each
-/// grid column is computed. For small disks, free rectangles of cells take the place of the bounds. A capsule
-/// is convex, so its upper boundary is concave, and its maximum over a column is where the capsule is
+/// move is followed in steps, as long as the bounds prove each step free (sphere tracing; Hart, 1996). This
+/// decides most moves. Where the bounds leave it in doubt, the vertical extent of the swept disk in each grid
+/// column is computed. For small disks, free rectangles of cells replace the bounds.
+///
+/// A capsule is convex, so its upper boundary is concave. Its maximum over a column is where the capsule is
 /// highest, clamped to the column.
 class LineOfSight {
  public:
   /// Derives what the tests need from the grid. If `stop` is met first, the object is not finished() and must
   /// not be used.
   LineOfSight(const OccupancyGrid& grid, const StopCondition& stop);
-  /// The line of sight among the walls of `walls` and further polygons. What is derived from the grid is
-  /// shared.
+  /// The line of sight among the walls of `walls` and further polygons. Both objects share what is derived
+  /// from the grid.
   LineOfSight(const LineOfSight& walls, BlockedPolygons polygons);
 
   bool finished() const { return cells_->finished; }
@@ -36,18 +37,18 @@ class LineOfSight {
   /// allowed.
   bool disk_fits(const Position& center, double radius) const { return may_sweep(center, center, radius); }
 
-  /// Returns the largest radius of a disk that may stand at `center`, to within 1e-11 m, but at most `max`
-  /// and at least `least` (metres), even if that does not fit. Rounding does not keep such a disk from moving
-  /// away.
+  /// Returns the largest radius of a disk that may stand at `center`, to within 1e-11 m. At most `max` and at
+  /// least `least` (metres), even if `least` does not fit. Such a disk can move away in spite of rounding.
   double fitting_radius(const Position& center, double least, double max) const;
 
   /// Returns whether a disk may sweep the segment, ends included. `radius` > 0 in metres.
   bool may_sweep(const Position& from, const Position& to, double radius) const;
 
-  /// Returns a distance that a disk may move from `center` in any direction, metres. The bound is quickly
-  /// known and within about a cell of the truth; negative if the disk does not fit, or may not fit.
+  /// Returns a distance that a disk may move from `center` in any direction, metres. The bound is quick to
+  /// compute, and within about a cell of the exact distance. Negative if the disk does not fit, or may not
+  /// fit.
   double surely_free(const Position& center, double radius) const;
-  /// Returns a distance from `center` within which no disk of this radius fits, metres; negative if the disk
+  /// Returns a distance from `center` within which no disk of this radius fits, metres. Negative if the disk
   /// fits, or may fit.
   double surely_blocked(const Position& center, double radius) const;
 

@@ -19,7 +19,7 @@ struct Cell {
   bool operator==(const Cell&) const = default;
 };
 
-/// The blocked cells of the map. A blocked cell is a closed square; everything outside the map is blocked as
+/// The blocked cells of the map. A blocked cell is a closed square. Everything outside the map is blocked as
 /// well. Map frame: cell (c, r) covers [c, c+1] x [r, r+1] times the resolution.
 class OccupancyGrid {
  public:
@@ -67,11 +67,11 @@ class OccupancyGrid {
 };
 
 /// Returns the distance in metres from a position to the nearest blocked cell or edge of the map, at most
-/// `limit` (> 0, metres). Outside the map it is minus the distance to the map.
+/// `limit` (> 0, metres). Outside the map, returns minus the distance to the map.
 double obstacle_distance(const OccupancyGrid& grid, const Position& position, double limit);
 
-/// The distance from each cell to the nearest blocked one, by the linear-time exact algorithm of Meijster,
-/// Roerdink and Hesselink (2000). What is outside the map is blocked.
+/// The distance from each cell to the nearest blocked cell, by the linear-time exact algorithm of Meijster,
+/// Roerdink and Hesselink (2000). Everything outside the map is blocked.
 class DistanceTransform {
  public:
   /// Longer distances are cut off: 255 cells.
@@ -82,8 +82,8 @@ class DistanceTransform {
 
   bool finished() const { return finished_; }
 
-  /// The squared distance of the centre of a cell from the centre of the nearest blocked cell, in cells, at
-  /// most kMaxSquared; 0 for a blocked cell. `cell` is inside the map.
+  /// The squared distance, in cells, between the centre of a cell and the centre of the nearest blocked cell.
+  /// At most kMaxSquared; 0 for a blocked cell. `cell` is inside the map.
   std::uint16_t squared(Cell cell) const {
     const auto column = static_cast<std::size_t>(cell.column);
     const auto row = static_cast<std::size_t>(cell.row);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Maps with what is derived from them alone, and those that are kept for later requests.
+// Maps with everything derived from them, and a cache that keeps maps for later requests.
 
 #include <atomic>
 #include <cstddef>
@@ -18,8 +18,8 @@
 
 namespace fleetplan::core {
 
-/// A map with what is derived from it alone. It never changes, so requests on the same map and threads may
-/// share it. What only some requests need is computed on first use.
+/// A map with everything that is derived from it alone. It never changes, so requests on the same map, and
+/// threads, may share it. What only some requests need is computed on first use.
 class StaticMap {
  public:
   /// The map of a grid. If `stop` is met first, the object is not finished() and must not be used.
@@ -31,12 +31,13 @@ class StaticMap {
   const OccupancyGrid& grid() const { return *grid_; }
   const LineOfSight& sight() const { return sight_; }
 
-  /// Returns the vertices that refine a lattice for robots of this radius; never null. There are none if the
-  /// lattice needs none, or if the stop condition was met first.
+  /// Returns the vertices that refine a lattice for robots of this radius; never null. Empty if the lattice
+  /// needs none, or if the stop condition was met first.
   std::shared_ptr<const FinerVertices> finer_vertices(const Lattice& lattice, double radius,
                                                       const StopCondition& stop) const;
 
-  /// Approximate memory in use, without that of another map; grows with what is computed on first use.
+  /// Approximate memory in use, without the memory of the map behind it. Grows with what is computed on first
+  /// use.
   std::size_t bytes() const { return own_bytes_ + finer_bytes_.load(std::memory_order_relaxed); }
 
  private:
@@ -57,11 +58,11 @@ class StaticMap {
 /// Returns the map of a grid; null if `stop` is met first.
 std::shared_ptr<const StaticMap> static_map(OccupancyGrid grid, const StopCondition& stop);
 
-/// Keeps maps, with what has been derived from them, for later requests on the same map: one of the same size
-/// and resolution, all of whose cells are equal. Plans do not depend on it. Thread-safe.
+/// Keeps maps, with everything derived from them, for later requests on the same map: the size, the
+/// resolution and all cells are equal. Plans do not depend on it. Thread-safe.
 ///
 /// A map counts on the memory account of every thread that gets it, as if it was made there. The limit of the
-/// cache is for the maps that nobody uses: those used least recently are destroyed first.
+/// cache is for the maps that nobody uses. The least recently used maps are destroyed first.
 class MapCache {
  public:
   struct Stats {
@@ -71,8 +72,8 @@ class MapCache {
     std::size_t bytes = 0;  // memory of the maps, those in use included
   };
 
-  /// Bytes that count for a kept map besides its own: the cache's lists and index, and what the allocator
-  /// adds. Measured with maps of 64 cells.
+  /// Bytes that count for a kept map in addition to its own: the cache's lists and index, and what the
+  /// allocator adds. Measured with maps of 64 cells.
   static constexpr std::size_t kEntryBytes = 640;
 
   /// A cache of at most so many bytes. With 0 bytes it keeps no map and counts nothing.
