@@ -1,6 +1,6 @@
 #pragma once
 
-// Arrays, a heap, and a sort of vectors, beside those of the standard library.
+// Arrays, a heap, and a sort of vectors that the standard library does not have.
 
 #include <algorithm>
 #include <array>
@@ -55,8 +55,8 @@ class IndexedVector {
   std::vector<T> items_;
 };
 
-/// An array of default values that allocates memory only for pages with accessed elements; for large arrays
-/// of which few elements are used.
+/// An array of default values for which few elements are used. It allocates memory only for pages with
+/// accessed elements.
 template <class T>
 class PagedArray {
  public:
@@ -91,10 +91,12 @@ class PagedArray {
   std::size_t pages_ = 0;
 };
 
-/// A heap of items with keys, from which the least key is taken first; for searches whose keys hardly ever
-/// fall below the last one taken (radix heap; Ahuja, Mehlhorn, Orlin and Tarjan, JACM 1990). Faster than a
-/// binary heap, as an item is moved only when the keys before it are gone. Keys are at least 0. One that is
-/// less than the last one taken counts as equal to it. The order of equal keys is fixed, but arbitrary.
+/// A heap of items with keys, from which the least key is taken first (radix heap; Ahuja, Mehlhorn, Orlin and
+/// Tarjan, JACM 1990). It is for searches whose keys hardly ever fall below the last key taken. It is faster
+/// than a binary heap, because an item is moved only when the keys before it are gone.
+///
+/// Keys are at least 0. A key that is less than the last key taken counts as equal to it. The order of equal
+/// keys is fixed, but arbitrary.
 template <class Item>
 class RadixHeap {
  public:
@@ -106,7 +108,7 @@ class RadixHeap {
     ++size_;
   }
 
-  /// Removes an item with the least key; there is one.
+  /// Removes an item with the least key. The heap must not be empty.
   Item pop() {
     if (buckets_[0].empty()) refill();
     const Item item = buckets_[0].back().item;
@@ -121,12 +123,12 @@ class RadixHeap {
     Item item;
   };
 
-  /// By the highest bit in which a key differs from the last one taken.
+  /// By the highest bit in which a key differs from the last key taken.
   std::vector<Entry>& bucket_of(std::uint32_t bits) {
     return buckets_[static_cast<std::size_t>(std::bit_width(bits ^ last_))];
   }
 
-  /// Takes the least key, and distributes the first bucket by it: each item comes to a lower one.
+  /// Takes the least key, and distributes the first bucket by it: each item moves to a lower bucket.
   void refill() {
     const auto bucket = std::find_if(buckets_.begin(), buckets_.end(), [](auto& b) { return !b.empty(); });
     last_ = std::min_element(bucket->begin(), bucket->end(), [](const Entry& a, const Entry& b) {
@@ -144,9 +146,9 @@ class RadixHeap {
 /// Items that stoppable_sort() sorts at once.
 inline constexpr std::size_t kSortChunk = 4096;
 
-/// Sorts, as std::sort cannot be stopped: chunks of kSortChunk items, which are then merged. Calls
-/// `met(items)` before it sorts or merges so many, about a millisecond of work at first; ends when that
-/// returns true. Returns false then, and the items are in any order.
+/// Sorts, because std::sort cannot be stopped: chunks of kSortChunk items, which are then merged. Calls
+/// `met(items)` before it sorts or merges so many items, about a millisecond of work at first. Ends and
+/// returns false when `met` returns true; the items are then in any order.
 template <class T, class Less, class Met>
 bool stoppable_sort(std::vector<T>& items, const Less& less, const Met& met) {
   const auto at = [&](std::size_t index) {

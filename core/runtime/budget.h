@@ -1,6 +1,6 @@
 #pragma once
 
-// How the time budget of a request is divided: the shares and patiences of all that is done for a plan.
+// How the time budget of a request is divided: the shares and limits of all parts of planning.
 
 #include <algorithm>
 #include <chrono>
@@ -9,44 +9,44 @@
 
 namespace fleetplan::core::budget {
 
-// A budget (`time_budget_ms`, Options::time_budget) begins with the last byte of the body. Of a second
-// for 100 robots, without queue:
+// A budget (`time_budget_ms`, Options::time_budget) begins with the last byte of the body. The example is a
+// second for 100 robots, without queue:
 //
-//  1. Reading takes what it takes, a few milliseconds; `Work` (stop_condition.h) says when it has to end.
-//     Each of the next parts has what those before it leave.
-//  2. Kept for the end: 25 ms for check and answer (kept_for_answer(), for_dependencies()). What is left
-//     until then is the time for planning, 975 ms; shares are of what is left of it when a part begins.
-//     With the library, it is the whole budget, and the check comes after it.
+//  1. Reading takes what it takes, a few milliseconds. `Work` (stop_condition.h) says when it has to end.
+//     Each later part has the time that the parts before it leave.
+//  2. Kept for the end: 25 ms for check and answer (kept_for_answer(), for_dependencies()). The rest, 975 ms,
+//     is the time for planning. A share is a share of what is left of this time when a part begins. With the
+//     library, the time for planning is the whole budget, and the check comes after it.
 //  3. Poses of goals that have several: at most a quarter (kShareOfPoses), and again before each try with
 //     other poses.
-//  4. Previous plans, if there are any: their check may last until 500 ms after the budget
-//     (kMaxForPrevious), as they are kept whatever the budget.
-//  5. First plan: what is left, as long as robots have no plan. Half of it (kShareBeforeSafePlan) is for
-//     one order and its repairs, of which a fifth (kShareOfOrder) may find the order of expected
-//     arrivals; steps of the whole fleet have two fifths of what is left (kShareOfSteps).
-//  6. Safe plan: if robots are without a plan after that half, one is made in which nobody is in the way
-//     of others, until nine tenths (kShareWithSafePlan). Then planning goes on until all robots have a
-//     plan or the time is over. Robots that gave way to others return to their previous plans in the last
-//     twentieth (kShareAroundKept).
+//  4. Previous plans, if there are any. They are kept whatever the budget, so their check may last until 500
+//     ms after the budget (kMaxForPrevious).
+//  5. First plan: what is left, as long as robots have no plan. Half of it (kShareBeforeSafePlan) is for one
+//     order and its repairs. A fifth of this half (kShareOfOrder) may find the order of expected arrivals.
+//     Steps of the whole fleet have two fifths of what is left (kShareOfSteps).
+//  6. Safe plan, if robots are without a plan after that half: a plan in which no robot is in the way of
+//     others, until nine tenths (kShareWithSafePlan). Then planning goes on until all robots have a plan or
+//     the time is over. Robots that gave way to others return to their previous plans in the last twentieth
+//     (kShareAroundKept).
 //  7. Smoothing of the first plan: at most three tenths (kShareOfBriefSmoothing). Then unavoidable
-//     collisions: until 150 ms after the budget (kMaxForUnavoidable), as no plan can be checked without
+//     collisions: until 150 ms after the budget (kMaxForUnavoidable), because no plan can be checked without
 //     them.
 //  8. Bounds: in mode `anytime` at most a fifth (kShareOfBounds), otherwise what is left.
 //  9. Improvement, in mode `anytime`: what is left, the last tenth for smoothing (kShareOfSmoothing).
 // 10. The end of planning: 30 ms (kTimeForTheEnd), also after the time for planning.
-// 11. Check: until 90 ms after the time for planning (CheckPatience), or 25 ms of CPU time. If that is
-//     not enough, 200 ms for a plan in which nobody moves.
-// 12. Answer: what explains the plan is made within the budget; then the text is written.
+// 11. Check: until 90 ms after the time for planning (CheckPatience), or 25 ms of CPU time. If that is not
+//     enough, 200 ms for a plan in which nobody moves.
+// 12. Answer: the explanations of the plan are made within the budget; then the text is written.
 //
 // `timings_ms` of the answer shows the parts: `parse` is 1, `choose` 3, `first_plan` 4 to 7, `bounds` 8,
-// `improve` 9 and 10, `verify` 11, `serialize` 12. Meanwhile the job shares its turn (shared_turn.h).
-// Searches divide their effort, too, which is counted and needs no clock; these shares are beside them.
+// `improve` 9 and 10, `verify` 11, `serialize` 12. Meanwhile, the job shares its turn (shared_turn.h).
+// Searches also divide their effort, which is counted and needs no clock, independently of these shares.
 
 using Duration = std::chrono::nanoseconds;
 
 // 2. Kept for the end.
 
-/// What can be told of a request once it is read.
+/// What is known of a request once it has been read.
 struct Request {
   Duration budget{};
   Duration reading{};  // how long reading took: it tells how large the request is, and how busy the machine
@@ -56,11 +56,11 @@ struct Request {
   bool has_obstacles = false;
 };
 
-/// The check of a map with more cells takes up to as long as reading it.
+/// A map with more cells counts as large: its check may take as long as reading it.
 inline constexpr int kManyCells = 4'000'000;
 
-/// Returns the time to check a plan and write the answer: a twentieth of the budget, but at most what as many
-/// robots need whose plans have many moves, as in crowds.
+/// Returns the time to check a plan and write the answer: a twentieth of the budget. It is at most what as
+/// many robots need if their plans have many moves, as in crowds.
 inline Duration for_check_and_answer(Duration budget, std::size_t robots) {
   constexpr std::chrono::milliseconds kLeast{25};
   constexpr std::chrono::microseconds kForARobot{400};
@@ -68,8 +68,8 @@ inline Duration for_check_and_answer(Duration budget, std::size_t robots) {
   return std::min(budget / 20, max);
 }
 
-/// Returns the part of the budget after planning, to check the plan and write the answer: see
-/// for_check_and_answer(); or a quarter of what reading the request took. The unavoidable collisions of
+/// Returns the part of the budget after planning, to check the plan and write the answer. It is
+/// for_check_and_answer(), or a quarter of the time that reading the request took. Unavoidable collisions of
 /// robots with moving obstacles, and their check, take up to half as long as reading them.
 inline Duration kept_for_answer(const Request& request) {
   const auto by_reading = [&] {
@@ -80,8 +80,8 @@ inline Duration kept_for_answer(const Request& request) {
   return std::max(for_check_and_answer(request.budget, request.robots), by_reading());
 }
 
-/// Returns the part of the budget for the dependencies of the answer: several times what fleets have needed
-/// so far, at most a quarter.
+/// Returns the part of the budget for the dependencies of the answer, at most a quarter. It is several times
+/// what fleets have needed so far.
 inline Duration for_dependencies(const Request& request) {
   constexpr std::chrono::milliseconds kForARobot{4};
   return std::min<Duration>(request.budget / 4, static_cast<std::int64_t>(request.robots) * kForARobot);
@@ -93,35 +93,34 @@ inline constexpr double kShareOfPoses = 0.25;
 
 // 4. Previous plans.
 
-/// The check, which decides whether they are kept, takes about 10 ms for 500 robots; the limit is for plans
-/// in which many robots meet in one small area, and for a busy machine. The same for plans without any
-/// search.
+/// The check decides whether previous plans are kept. It takes about 10 ms for 500 robots. The limit is for
+/// plans in which many robots meet in one small area, and for a busy machine. It also holds for plans without
+/// any search.
 inline constexpr std::chrono::milliseconds kMaxForPrevious{500};
-/// The least time for planning others around robots that keep their plans, also after the time for planning.
-/// Robots without a plan are in the way of others, so a budget that is spent would cost plans that hold. A
+/// The least time for planning other robots around robots that keep their plans, also after the time for
+/// planning. Robots without a plan are in the way of others, so a spent budget would cost plans that hold. A
 /// few robots are planned around hundreds of others in less than this.
 inline constexpr std::chrono::milliseconds kLeastAroundKept{40};
 
 // 5. First plan.
 
-/// The share after which a safe plan is made.
+/// The share of the time after which a safe plan is made.
 inline constexpr double kShareBeforeSafePlan = 0.5;
-/// The share of that which finding the order of expected arrivals may take.
+/// The share of that time for the order of expected arrivals.
 inline constexpr double kShareOfOrder = 0.2;
-/// The share that steps of the whole fleet may take before something else is tried.
+/// The share for steps of the whole fleet, before something else is tried.
 inline constexpr double kShareOfSteps = 0.4;
-/// The share of that for steps along the rows and columns of a lattice, if they do not suffice.
+/// The share of that time for steps along the rows and columns of a lattice, if they do not suffice.
 inline constexpr double kShareOfLattice = 0.5;
 
 // 6. Safe plan.
 
-/// The share after which the making of it ends.
+/// The share of the time by which the safe plan is finished.
 inline constexpr double kShareWithSafePlan = 0.9;
-/// The share around plans that are kept, if the rest is for robots that gave way and may return.
+/// The share around kept plans, if the rest is for robots that gave way and may return.
 inline constexpr double kShareAroundKept = 0.95;
-/// The least time that is divided in two parts around plans that are kept. Keeping a safe plan and returning
-/// to where planning was takes some 0.1 s for 500 robots; in less time, repairs of the plan are better left
-/// to run.
+/// The least time around kept plans that is divided in two parts. Keeping a safe plan and returning to the
+/// state before takes about 0.1 s for 500 robots. In less time, repairs of the plan are better left to run.
 inline constexpr std::chrono::milliseconds kLeastFirstPart{250};
 
 // 7. Smoothing of the first plan, and unavoidable collisions.
@@ -136,9 +135,9 @@ inline constexpr double kShareOfBounds = 0.2;
 
 // 9. Improvement.
 
-/// The last share of the time, and of the iterations if they are limited, in which all robots are smoothed.
+/// The last share of the time, and of the iterations if they are limited. In it, all robots are smoothed.
 inline constexpr double kShareOfSmoothing = 0.1;
-/// No better plan is shown in this last part of the time for planning, before the final one.
+/// In this last part of the time for planning, no better plan is shown before the final plan.
 inline constexpr std::chrono::milliseconds kQuietEnd{250};
 
 // 10. The end of planning.
@@ -156,11 +155,11 @@ struct CheckPatience {
   bool despite_cancel = false;  // whether it goes on if a stop is requested meanwhile
 };
 
-/// The CPU time that a thousand robots with few moves need: a check is not given up before.
+/// The CPU time that a thousand robots with few moves need. A check is not given up before.
 inline constexpr std::chrono::milliseconds kLeastCpuOfCheck{25};
 
-/// Returns the patience of the service: soon after the end of planning, the check is given up, and sooner if
-/// the plan was cancelled, as the service drains.
+/// Returns the patience of the service. The check is given up soon after the end of planning. It is given up
+/// even sooner if the plan was cancelled, because then the service drains.
 inline CheckPatience patience_of_service(const Request& request) {
   constexpr std::chrono::milliseconds kAfterPlanning{90};
   constexpr std::chrono::milliseconds kLeastForNobody{200};

@@ -9,15 +9,18 @@
 
 namespace fleetplan::core {
 
-/// The memory of one job: what its threads have allocated with `new`, less what they have freed, in bytes. It
+/// The memory of one job in bytes: what its threads have allocated with `new`, minus what they have freed. It
 /// counts in programs that link core/runtime/allocation_hook.cpp; elsewhere it stays at 0. Thread-safe.
 ///
-/// Three quarters of the limit are for computing. Beyond that the job is *short of memory*: StopCondition is
+/// Three quarters of the limit are for computing. Beyond that, the job is *short of memory*: StopCondition is
 /// met, and searches end as when the time is up. The last quarter is for what remains to be done, such as a
 /// partial plan and the answer. Beyond the limit, `new` throws std::bad_alloc.
 ///
-/// It is not exact. A thread reports its allocations in batches of kBatch. What a thread without the account
-/// frees stays counted; what it allocates and a thread of the job frees is subtracted.
+/// It is not exact, for these reasons:
+///
+/// - A thread reports its allocations in batches of kBatch.
+/// - Memory that a thread without the account frees stays counted.
+/// - Memory that such a thread allocates and a thread of the job frees is subtracted.
 class MemoryAccount {
  public:
   /// A thread reports when it has allocated or freed so many bytes.
@@ -34,16 +37,16 @@ class MemoryAccount {
   std::int64_t peak() const { return peak_.load(std::memory_order_relaxed); }
 
   bool is_short() const { return used() > enough_; }
-  /// The number of times that the job became short of memory, or was refused some.
+  /// How often the job became short of memory, or was refused memory.
   std::int64_t shortages() const { return shortages_.load(std::memory_order_relaxed); }
 
   /// Counts bytes that were allocated; a negative number for bytes that were freed.
   void count(std::int64_t bytes);
-  /// Counts bytes unless that would exceed the limit; then it counts nothing and returns false.
+  /// Counts bytes unless that would exceed the limit. Then counts nothing and returns false.
   bool reserve(std::int64_t bytes);
 
-  /// Destroys the object with the account. Freeing the memory of a large plan takes longer than checking it,
-  /// so it may wait until the answer is sent. To be called by one thread at a time.
+  /// Destroys the object together with the account. Freeing the memory of a large plan takes longer than
+  /// checking it, so it may wait until the answer is sent. Only one thread may call this at a time.
   void keep(std::shared_ptr<const void> object) { kept_.push_back(std::move(object)); }
 
  private:
@@ -77,15 +80,15 @@ struct MemoryTally {
   bool report_or_undo(std::size_t bytes);
 };
 
-/// The tally of this thread. `operator new` and `operator delete` have no other way to know for whom they
-/// work.
+/// The tally of this thread. `operator new` and `operator delete` have no other way to know for which job
+/// they work.
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): changed by MemoryScope only
 extern constinit thread_local MemoryTally memory_tally;
 
-/// While it lives, this thread's allocations count on an account, or on none. Scopes nest.
+/// During its lifetime, this thread's allocations count on an account, or on none. Scopes nest.
 class MemoryScope {
  public:
-  /// Begins the scope. The account has to outlive it; null: what is allocated meanwhile is not counted.
+  /// Begins the scope. The account must outlive it. Null: allocations are not counted during the scope.
   explicit MemoryScope(MemoryAccount* account) : before_(memory_tally) { memory_tally = {account}; }
   ~MemoryScope() {
     memory_tally.report();
@@ -107,8 +110,8 @@ inline bool is_short_of_memory() {
   return account != nullptr && account->is_short();
 }
 
-/// Keeps the object with the account of this thread; destroys it at once if there is none or its memory is
-/// needed.
+/// Keeps the object with the account of this thread. Destroys it at once if there is no account or its memory
+/// is needed.
 inline void keep_for_later(std::shared_ptr<const void> object) {
   MemoryAccount* account = MemoryScope::current();
   if (account != nullptr && !account->is_short()) account->keep(std::move(object));

@@ -8,8 +8,8 @@
 
 namespace fleetplan::core {
 
-/// Random choices that are the same on every machine. The C++ standard fixes the engine; the distributions
-/// are implemented here, because those of the standard differ between libraries.
+/// Random choices that are the same on every machine. The C++ standard fixes the engine. The distributions
+/// are implemented here, because the standard ones differ between libraries.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}

@@ -10,20 +10,20 @@
 
 namespace fleetplan::core {
 
-/// Shares the turn of a job with others by time: whatever its threads do, `go_on` is asked about every
-/// kPeriod, from within the loops that ask the job's stop condition. It may take its time, while others
-/// compute; meanwhile all threads of the job wait. If it returns false, the stop condition is met from then
-/// on. Conditions that outlast it, for the little that is done at the end, neither ask nor end.
+/// Shares the turn of a job with other jobs by time. The loops of the job ask its stop condition, which asks
+/// `go_on` about every kPeriod. `go_on` may take its time while other jobs compute; meanwhile, all threads of
+/// the job wait. If it returns false, the stop condition is met from then on. Conditions that outlast it, for
+/// the little that is done at the end, neither ask nor end.
 class SharedTurn final : public EarlyEnd {
  public:
   using GoOn = std::function<bool()>;
 
   static constexpr std::chrono::milliseconds kPeriod{20};
 
-  /// `go_on` is called by any of the job's threads, one at a time; empty: the turn is not shared.
+  /// `go_on` is called by any thread of the job, one at a time. Empty: the turn is not shared.
   SharedTurn(StopCondition stop, GoOn go_on) : inner_(std::move(stop)), go_on_(std::move(go_on)) {}
 
-  /// Returns the job's condition, which shares the turn. This object has to outlive it.
+  /// Returns the job's condition, which shares the turn. This object must outlive it.
   StopCondition stop() { return inner_.ended_by(this); }
 
   /// Asks `go_on`. Returns whether the job may go on.
@@ -32,7 +32,7 @@ class SharedTurn final : public EarlyEnd {
     return !ended_ && ask();
   }
 
-  /// Whether the turn has ended; the conditions themselves know their deadlines.
+  /// Whether the turn has ended. Conditions check their deadlines themselves.
   bool met(bool outlasts) override {
     if (!outlasts && !ended_ && now() >= next_) share_if_due();
     return (!outlasts && ended_) || inner_.ended_early(outlasts);

@@ -14,8 +14,9 @@
 
 namespace fleetplan::core {
 
-/// Ends computations before their deadline. Tests count questions by it instead of seconds, the same on every
-/// machine. `outlasts`: whether the condition that is asked outlasts the budget, to decide about the answer.
+/// Ends computations before their deadline. Tests count questions with it instead of seconds, which is the
+/// same on every machine. `outlasts`: whether the condition that is asked outlasts the budget, to decide
+/// about the answer.
 class EarlyEnd {
  public:
   EarlyEnd() = default;
@@ -23,7 +24,7 @@ class EarlyEnd {
   EarlyEnd& operator=(const EarlyEnd&) = delete;
   virtual ~EarlyEnd() = default;
 
-  /// Called whenever a condition is asked, by any of the job's threads; returns whether it is met.
+  /// Returns whether it is met. Called whenever a condition is asked, by any thread of the job.
   virtual bool met(bool outlasts) = 0;
   virtual bool is_over(bool outlasts) const = 0;
 };
@@ -34,8 +35,9 @@ std::chrono::nanoseconds thread_cpu_time();
 /// When to stop: at a deadline, when a stop is requested, or while the job of the calling thread is short of
 /// memory (see MemoryAccount). Cheap enough to test in every search loop.
 ///
-/// The service gets one from the Work of a request, or from another one by until() and even_if_cancelled();
-/// tests/architecture rejects any other in the sources, so that no loop of a request is without its bounds.
+/// In the service, conditions come from the Work of a request, or from other conditions: by `until` and
+/// `even_if_cancelled`. tests/architecture rejects any other condition in the sources, so that no loop of a
+/// request is without its bounds.
 class StopCondition {
  public:
   using Clock = std::chrono::steady_clock;
@@ -50,15 +52,16 @@ class StopCondition {
     return (early_ != nullptr && early_->met(outlasts_)) || cancelled() ||
            (heeds_memory_ && is_short_of_memory()) || is_late();
   }
-  /// Returns this condition, but not met while the job is short of memory: for the end of a job, which has
+  /// Returns this condition, but not met while the job is short of memory. For the end of a job, which has
   /// memory set apart.
   StopCondition despite_memory() const {
     StopCondition without = *this;
     without.heeds_memory_ = false;
     return without;
   }
-  /// Returns this condition, but not met for time that has passed before the calling thread, which alone asks
-  /// it, has had so much CPU time from now on: on a busy machine, time passes while nothing is done.
+  /// Returns this condition with a guarantee: it is not met by time before the calling thread has had so much
+  /// CPU time from now on. On a busy machine, time passes while the thread cannot work. Only the calling
+  /// thread may ask it.
   StopCondition with_cpu_time(std::chrono::nanoseconds least) const {
     StopCondition patient = *this;
     patient.cpu_end_ = thread_cpu_time() + least;
@@ -71,7 +74,7 @@ class StopCondition {
     other.outlasts_ = outlasts_ || deadline > deadline_;
     return other;
   }
-  /// Returns a condition that is met at `deadline` only: for the little that is done once a stop was
+  /// Returns a condition that is met only at `deadline`. For the little that is done after a stop was
   /// requested.
   StopCondition even_if_cancelled(Clock::time_point deadline) const {
     StopCondition other(deadline);
@@ -79,17 +82,17 @@ class StopCondition {
     other.outlasts_ = true;
     return other;
   }
-  /// Returns this condition, but also met when `early` says so. Null: it is met as it would be without one.
+  /// Returns this condition, but also met when `early` says so. Null: it is met as without `early`.
   StopCondition ended_by(EarlyEnd* early) const {
     StopCondition other = *this;
     other.early_ = early;
     return other;
   }
-  /// What ends this condition early, see EarlyEnd; for what takes its place.
+  /// What ends this condition early, see EarlyEnd. For conditions that replace it.
   bool ended_early(bool outlasts) const { return early_ != nullptr && early_->met(outlasts); }
   bool is_over_early(bool outlasts) const { return early_ != nullptr && early_->is_over(outlasts); }
   bool cancelled() const { return stop_.stop_requested(); }
-  /// Whether the time is over: cancelled, or after the deadline, whatever else the condition is met for.
+  /// Whether the time is over: cancelled, or after the deadline. Other reasons to stop do not count.
   bool is_over() const {
     return is_bounded_ && ((early_ != nullptr && early_->is_over(outlasts_)) || cancelled() || is_late());
   }
@@ -121,14 +124,14 @@ inline StopCondition after_share(const StopCondition& stop, double share) {
   return stop.until(now + remaining);
 }
 
-/// Asks a stop condition, which outlives it, once in so many steps of a computation: the one way to ask in
-/// short steps, which tests/architecture demands. Stays met once it is met.
+/// Asks a stop condition, which must outlive it, once in so many steps of a computation. Computations with
+/// short steps must use it; tests/architecture checks this. Stays met once it is met.
 class StopStride {
  public:
-  /// Asks at the step that completes `stride` steps, and then once in so many.
+  /// Asks at the step that completes `stride` steps, and then once in every `stride` steps.
   StopStride(const StopCondition& stop, std::size_t stride) : stop_(&stop), stride_(stride) {}
   StopStride(const StopCondition&& stop, std::size_t stride) = delete;
-  /// Asks at the first step already, and then once in `stride` steps.
+  /// Asks already at the first step, and then once in every `stride` steps.
   static StopStride from_first(const StopCondition& stop, std::size_t stride) {
     StopStride first(stop, stride);
     first.done_ = stride - 1;
@@ -138,7 +141,7 @@ class StopStride {
 
   /// To be called at every step.
   bool met_at_step() { return met_after(1); }
-  /// To be called at a step that counts as so many.
+  /// Must be called at each step. The step counts as so many steps.
   bool met_after(std::size_t steps) {
     done_ += steps;
     if (done_ < stride_) return met_;
@@ -157,22 +160,25 @@ class StopStride {
 };
 
 /// What one request may cost: time, CPU seconds and memory, and whether anybody still waits for the answer.
-/// There is one object for a request. Reading the body asks it directly; computations ask a StopCondition,
-/// which only a Work makes, or another StopCondition. So nothing that takes one as a parameter can be called
-/// without the bounds of a request.
+/// There is one object for a request. Reading the body asks it directly. Computations ask a StopCondition,
+/// which only a Work or another StopCondition can make. So functions that take either as a parameter can only
+/// be called within the bounds of a request.
 ///
-/// Reading ends when the client has left or the service drains; after kMaxCpu until the budget is known, and
-/// after kMaxCpuOfReading in all; and when the budget is spent.
+/// Reading ends when
+///
+/// - the client has left or the service drains,
+/// - it has used kMaxCpu before the budget is known, or kMaxCpuOfReading in all,
+/// - or the budget is spent.
 class Work {
  public:
   using Clock = StopCondition::Clock;
   using CpuClock = std::function<std::chrono::nanoseconds()>;
 
   static constexpr std::chrono::seconds kMaxCpu{1};
-  /// The most CPU time of reading, whatever the budget, as other requests wait to be read.
+  /// The most CPU time of reading, whatever the budget, because other requests wait to be read.
   static constexpr std::chrono::seconds kMaxCpuOfReading{3};
-  /// How much longer than its budget a request is read, counted from when the budget is known if that is
-  /// later: so a request that waited too long still gets the answer of a valid one.
+  /// How much longer than its budget a request is read. It counts from the time when the budget is known, if
+  /// that is later. So a request that waited too long still gets the answer of a valid request.
   static constexpr std::chrono::milliseconds kGrace{50};
   /// Bytes or values between two looks at the clock, about a millisecond of work.
   static constexpr std::size_t kStride = 64 * 1024;
@@ -187,13 +193,13 @@ class Work {
   static constexpr std::size_t kUnlimitedMemory = std::size_t{1} << 62;
 
   explicit Work(Bounds bounds);
-  /// Work without any bounds: for what the service itself has written, and for tests.
+  /// Work without any bounds: for texts that the service itself has written, and for tests.
   static Work unbounded() { return Work(); }
   Work(const Work&) = delete;
   Work& operator=(const Work&) = delete;
 
-  /// Counts bytes or values that are read, and looks at the clock once in a while. Returns true when reading
-  /// has to end, and from then on.
+  /// Counts bytes or values that are read, and looks at the clock once in a while. Returns true as soon as
+  /// reading has to end.
   bool met_after(std::size_t amount) {
     amount_ += amount;
     return amount_ < kStride ? met_ : look();
@@ -213,7 +219,8 @@ class Work {
   /// The condition for computations while the request is read. They end with an exception if the memory does
   /// not suffice.
   StopCondition reading() const { return until(deadline_).despite_memory(); }
-  /// The condition that is met at the end of the budget, less `kept` for later work; never without a budget.
+  /// The condition that is met at the end of the budget, minus `kept` for later work. Never met without a
+  /// budget.
   StopCondition before_end(std::chrono::nanoseconds kept = {}) const;
   /// The condition that is met at `time`, or when nobody waits for the answer.
   StopCondition until(Clock::time_point time) const {
