@@ -1,7 +1,7 @@
 #pragma once
 
-// Whether the next request can be planned wherever robots were measured: what has to be left out of their
-// commitments, and what nobody can mend.
+// Whether the next request can be planned wherever robots were measured: which parts of commitments to leave
+// out for this, and which problems remain.
 
 #include <functional>
 #include <memory>
@@ -20,28 +20,31 @@
 
 namespace fleetplan::core {
 
-/// What the next request is judged by when it is planned. Refers to the request.
+/// The facts by which the next request is judged when it is planned. Refers to the request.
 struct Judgement {
   const PlanOptions& options;
   const std::vector<Zone>& zones;
   bool reports_invalid;  // robots in walls are reported, the others are planned
-  /// Positions as who plans them reads them: rounded in the frame of the client.
+  /// Returns a position as the planner of the next request reads it: rounded in the frame of the client.
   std::function<Position(const Position&)> read_back;
-  /// The map, if it is needed; null if there is no time or memory for it.
+  /// The map, if it is needed. Null if there is no time or memory for it.
   std::function<std::shared_ptr<const StaticMap>()> map;
 };
 
-/// What is wrong with where robots are, and cannot be mended.
+/// Problems with the positions of robots that cannot be mended.
 struct Circumstances {
   std::optional<double> start_overlap = {};  // metres that starts may overlap; none: as the options allow
   bool some_in_walls = false;                // robots whose centres are, which have to be reported as invalid
   Collisions unavoidable = {};
 };
 
-/// Ends committed actions of robots that were measured, or have reported where they are, before they meet
-/// walls or zones, or break the rules of zones, as Problem judges it; then those of others that would drive
-/// into them, see clear_commitments. `next`: the robots that follow from those of the fleet. Ends early when
-/// `work` is met.
+/// Ends committed actions early, where Problem would not accept them:
+///
+/// 1. For robots that were measured, or have reported where they are: before they meet walls or zones, or
+///    break the rules of zones.
+/// 2. For other robots: before they would drive into these robots, see clear_commitments.
+///
+/// `next`: the robots of the next request, which follow from the fleet. Ends early when `work` is met.
 Circumstances make_acceptable(const FleetInMotion& fleet, const Judgement& judgement,
                               std::vector<Robot>& next, Motions& motions, Work& work);
 

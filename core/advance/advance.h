@@ -1,6 +1,6 @@
 #pragma once
 
-// The fleet at a later moment of its plan, in the map frame: the robots of the next request, and whether that
+// The fleet at a later moment of its plan, in the map frame: the robots of the next request, and whether it
 // can be planned wherever robots were measured.
 
 #include <cstddef>
@@ -18,66 +18,72 @@
 
 namespace fleetplan::core {
 
-/// The robots of the next request, on the clock of the moment, and what cannot be mended.
+/// The robots of the next request, on the clock of the moment, and the problems that cannot be mended.
 struct AdvancedFleet {
   std::vector<Robot> robots;
   Circumstances circumstances;
 };
 
-/// Returns the fleet of the moment, whose `stand_until` is set; see advanced(), make_acceptable() and
-/// leave_out_unfit(). Ends early, with a part of that, when `work` is met.
+/// Returns the fleet at the moment. Sets the fleet's `stand_until`; see advanced(), make_acceptable() and
+/// leave_out_unfit(). Ends early, with a part of the result, when `work` is met.
 AdvancedFleet advance(FleetInMotion& fleet, const Judgement& judgement, Work& work);
 
-/// Goals that a robot has though it has got other ones.
+/// Goals that a robot keeps although it has got new goals.
 struct PassedGoals {
-  std::size_t first = 0;  // its number among those that it had
+  std::size_t first = 0;  // its number among the old goals
   std::size_t count = 0;
 };
 
-/// Returns the goals that the commitment of the robot of that moment, `next`, passes and that change its
-/// load: the last of them, and those before it, which come before the other goals that it has got. None if it
-/// has got none.
+/// Returns the old goals that a robot with new goals keeps. Let g be the last goal that its commitment passes
+/// and whose service changes its load: the robot keeps the goals up to g. `next` is the robot at the moment;
+/// the kept goals come before its new goals. None if it has no new goals.
 PassedGoals passed_goals(const Robot& robot, const Execution& execution, const Moment& moment,
                          const Robot& next);
 
-/// Leaves out what belongs to commitments that have been ended early: goals that they do not pass any more,
-/// and previous actions that POST /v1/plan would not accept.
+/// Leaves out what belonged to commitments that were ended early: goals that they no longer pass, and
+/// previous actions that POST /v1/plan would not accept.
 void leave_out_unfit(std::vector<Robot>& next, const std::vector<Robot>& robots,
                      const std::vector<Execution>& executions, const Moment& moment, Work& work);
 
 /// Returns the robot of the request of that moment: its start, goals, radius, committed and previous actions.
-/// Its radius is the one after the goals that it has left behind, and after a last goal that it has served.
-/// It has no previous actions if it has no plan, is elsewhere than planned, or gets other goals.
+/// Its radius takes into account the goals that it has left, and a last goal that it has served.
+///
+/// It has no previous actions if it has no plan, is elsewhere than planned, or gets new goals.
 Robot advanced(const Robot& robot, const Execution& execution, const Moment& moment);
 
-/// Says of the committed and previous waits of the robots which goals they serve, as the function of
-/// core/model/itinerary.h does for one robot.
+/// Marks the committed and previous waits of the robots with the goals that they serve, like mark_services()
+/// of core/model for one robot.
 void mark_services(std::vector<Robot>& next, Work& work);
 
-/// Returns by robot what one that drives at the moment cannot leave out, on the clock of the moment: its
-/// motion until it can stand, which it can after its stop distance, and where its plan has it stand. Empty
-/// for one that stands, by its plan or because it says so, turns, or is not on its path.
+/// For each robot: the actions that it can no longer avoid before it can stop, on the clock of the moment.
+/// The robot can stop after its stop distance, and where its plan has it stand. Empty for a robot that
+///
+/// - stands, by its plan or because it says so,
+/// - turns,
+/// - or is not on its path.
 std::vector<std::vector<Action>> braking_of(const std::vector<Robot>& robots,
                                             const std::vector<Execution>& executions, const Moment& moment,
                                             Work& work);
 
-/// Returns until when all robots stand, if some have reported how far they are released: until the last of
-/// them has come to where it may drive to, and for the horizon of commitment at least. So nobody leaves what
-/// is released for it before all others have passed what is released for them, and nobody is planned to pass
-/// in front of a robot that nobody can stop any more. Returns none if nobody has reported that.
+/// Returns until when all robots stand, if some have reported how far they are released. They stand until the
+/// last of them has reached the end of what is released, and at least for the horizon of commitment. None if
+/// no robot has reported this.
+///
+/// So no robot leaves the end of what is released for it before all others have passed what is released for
+/// them. And no robot is planned to pass in front of a robot that cannot be stopped any more.
 std::optional<double> standing_time(const std::vector<Robot>& robots,
                                     const std::vector<Execution>& executions, const Moment& moment,
                                     Work& work);
 
-/// Returns the robots of the request of that moment. Committed actions end where they touch another robot
-/// that is committed or stands at the end of its commitment, or an obstacle: see clear_commitments. `motions`
-/// without courses, which are found here.
+/// Returns the robots of the request of that moment. Committed actions end where they touch an obstacle, or
+/// another robot that is committed or stands at the end of its commitment; see clear_commitments. `motions`
+/// has no courses; they are found here.
 std::vector<Robot> advanced(const std::vector<Robot>& robots, const std::vector<Execution>& executions,
                             const Moment& moment, Motions& motions, Work& work);
 
 /// Returns where the robot is in its actions at the moment: as reported, otherwise as measured, otherwise as
-/// planned. A robot that has done all of them is at the end of the last one, and one without actions at the
-/// beginning.
+/// planned. A robot that has done all of them is at the end of the last one. A robot without actions is at
+/// the beginning.
 ActionPlace place_of(const Robot& robot, const Execution& execution, const Moment& moment);
 
 /// Returns the rest of an obstacle's motion; none if it has left.

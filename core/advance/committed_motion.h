@@ -1,6 +1,6 @@
 #pragma once
 
-// Where commitments have to end, so that nobody drives into a robot that stands.
+// Where commitments have to end, so that no robot drives into a robot that stands.
 
 #include <vector>
 
@@ -12,30 +12,34 @@
 
 namespace fleetplan::core {
 
-/// What commitments are judged by, on the clock of the moment.
+/// The facts by which commitments are judged, on the clock of the moment.
 struct Motions {
   std::vector<std::vector<Action>> braking;       // by robot, see braking_of
   std::vector<std::vector<Action>> courses = {};  // by robot: all that it does if it goes on as planned
   std::vector<MovingObstacle> obstacles = {};
 };
 
-/// Returns by robot what it keeps around its disk while it is committed: its vicinity and the inflation,
-/// metres. Inflation is there for robots that are not where their plans have them, so it is used up by as
-/// much as they are elsewhere at the moment, up to a half. What is released cannot be shortened for the sake
-/// of a margin: then there is none.
+/// Returns, by robot, the margin that it keeps around its disk while it is committed, metres: its vicinity
+/// and the inflation. Inflation absorbs position errors: a robot that is d metres off its plan keeps
+/// `inflation - d`, but at least half of `inflation`. Margins are 0 if robots have reported what is released,
+/// because that cannot be shortened for a margin.
 std::vector<double> margins_of(const std::vector<Robot>& robots, const std::vector<Execution>& executions,
                                const Moment& moment, const std::vector<Robot>& next, Work& work);
 
-/// Ends committed actions early, so that every robot may stay for ever where its commitment ends: none meets
-/// another one, nor passes where another one has ended. Whatever becomes of the plans behind the commitments,
-/// nobody then drives into a robot that stands. Robots are only stopped while they drive; a wait stays
-/// committed. `margins`: metres, by robot, that they keep around their disks; robots that are nearer to each
-/// other at the moment keep half of what they have, or a quarter of the margins if they have that.
-/// None of these commitments ends before the braking of its robot, unless it collides with another
-/// commitment. Where two robots meet that cannot stop in time, although they would not if they went on as
-/// planned, they are committed to that as far as it takes, which is their braking from then on. First,
-/// a commitment that leads into an obstacle ends where the robot can stop at last without touching any until
-/// it stands, or else as soon as it can. Ends early when `work` is met.
+/// Ends committed actions early, so that every robot may stay for ever where its commitment ends. No robot
+/// meets another, or passes a place where another robot stays. So no robot drives into a robot that stands,
+/// whatever happens to the plans after the commitments. Robots are stopped only while they drive; a wait
+/// stays committed.
+///
+/// 1. If a commitment leads into an obstacle, it ends at the last time at which the robot can stop safely: no
+///    obstacle touches it until it stands. If there is no such time, it ends as soon as the robot can stop.
+/// 2. No commitment ends before the braking of its robot, unless it collides with another commitment.
+/// 3. Two robots may meet that cannot stop in time, although they would not meet if they went on as planned.
+///    They are committed to the plan as far as needed. This is their braking from then on.
+///
+/// `margins`: metres, by robot, around their disks. Robots may be nearer to each other at the moment. They
+/// keep half of their present distance, or a quarter of the margins if they have that. Ends early when `work`
+/// is met.
 void clear_commitments(std::vector<Robot>& robots, const std::vector<double>& margins, Motions& motions,
                        Work& work);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// A moment of a plan that is executed, and what is known of each robot then.
+// A moment of a plan that is being executed, and what is known of each robot at this moment.
 
 #include <cstddef>
 #include <optional>
@@ -13,7 +13,7 @@
 
 namespace fleetplan::core {
 
-/// An action is copied several times, which is as much work as reading so many bytes.
+/// Copying an action several times is as much work as reading so many bytes.
 inline constexpr std::size_t kWorkOfAnAction = 256;
 
 /// What holds for all robots. Seconds, metres.
@@ -24,8 +24,8 @@ struct Moment {
   double wait_before_move = 0.0;  // of the request's options
   double inflation = 0.0;         // of the request's options
   bool has_horizon = false;       // of the request's options; then the ages of goals count
-  /// If robots have reported how far they are released: then each is committed to that and stands until this
-  /// time at least, see standing_time.
+  /// Set if robots have reported how far they are released. Then each robot is committed to that, and stands
+  /// at least until this time, see standing_time.
   std::optional<double> stand_until = {};
 };
 

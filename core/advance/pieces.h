@@ -1,7 +1,7 @@
 #pragma once
 
-// The motion of robots that execute nothing but their commitments, and of obstacles, in pieces of straight
-// motion and rest.
+// The motion of robots that execute only their commitments, and of obstacles, in pieces of straight motion
+// and rest.
 
 #include <cstddef>
 #include <optional>
@@ -42,14 +42,14 @@ struct Piece {
   bool moves() const { return velocity.squaredNorm() > 0.0; }
 };
 
-/// Returns the pieces of the commitment, and then the stay at its end, which has no end.
+/// Returns the pieces of the commitment, followed by the stay at its end, which has no end.
 std::vector<Piece> committed_pieces(const Robot& robot);
 
 /// Returns the pieces of an obstacle, as long as it is there.
 std::vector<Piece> pieces_of(const MovingObstacle& obstacle);
 
-/// Returns when two pieces begin to be nearer than a distance, in the time of both; at the beginning of that
-/// time if they are nearer then and come nearer.
+/// Returns when two pieces begin to be nearer than a distance, in their common time. If they are nearer at
+/// the beginning of this time and come nearer, returns the beginning.
 std::optional<double> first_overlap(const Piece& a, const Piece& b, double distance);
 
 /// Calls visit(piece, other) for the pieces of two robots whose times overlap, in the order of time, until it
