@@ -11,7 +11,8 @@
 
 namespace fleetplan::core {
 
-/// A convex corner: a point where one blocked cell meets three free ones. Taut paths bend around these only.
+/// A convex corner: a point where one blocked cell meets three free cells. Taut paths bend only around such
+/// corners.
 struct Corner {
   int x = 0;  // in cells
   int y = 0;
@@ -19,14 +20,14 @@ struct Corner {
   int away_y = 1;
 };
 
-/// The convex corners of the blocked cells, and which of them are visible from a point or from each other.
+/// The convex corners of the blocked cells, and which corners are visible from a point or from each other.
 ///
-/// A disk that moves straight from a point until it touches a corner, or from one corner to another, covers
-/// the line between them, so that line has to be free. The area that the disk covers is convex, so the width
-/// of the disk has to be free on every grid line that it crosses. The results may contain corners that are
-/// not visible or not reachable, but never omit one that the disk can reach.
+/// A disk may move straight from a point until it touches a corner, or from one corner to another. It then
+/// covers the line between them, so the line must be free. The area that the disk covers is convex. So on
+/// every grid line that it crosses, a stretch as wide as the disk must be free. The results may contain
+/// corners that are not visible or not reachable. They never omit a corner that the disk can reach.
 ///
-/// Visibility between corners is computed on first use, and only in the directions of taut paths: a path that
+/// Visibility between corners is computed on first use, and only in the directions of taut paths. A path that
 /// bends around a corner continues in one of the two quadrants beside the blocked cell, neither over the cell
 /// nor straight away from it. Not thread-safe.
 class CornerVisibility {
@@ -37,9 +38,9 @@ class CornerVisibility {
   CornerVisibility(const CornerVisibility&) = delete;
   CornerVisibility& operator=(const CornerVisibility&) = delete;
 
-  /// Whether the stop condition was met. From then on corners and what is visible may be incomplete.
+  /// Whether the stop condition was met. From then on, corners and visibility may be incomplete.
   bool stopped() const { return stride_.met(); }
-  /// Whether the stop condition was met, for loops over corners: asks it only once in a while.
+  /// Whether the stop condition was met, for loops over corners. Asks the condition only once in a while.
   bool stopped_at_step() { return stride_.met_at_step(); }
 
   const OccupancyGrid& grid() const { return grid_; }
@@ -52,10 +53,11 @@ class CornerVisibility {
 
   /// The corners visible from a position (metres, free), ascending.
   std::vector<int> visible_from(const Position& position);
-  /// The corners visible from another one, in the directions in which taut paths continue there, ascending.
+  /// The corners visible from another corner, in the directions in which taut paths continue there,
+  /// ascending.
   const std::vector<int>& bends_from(int index);
 
-  /// The work done so far: sectors followed through rows, and corners found; each takes 10 to 20 ns.
+  /// The work done so far: sectors followed through rows, and corners found. Each takes 10 to 20 ns.
   std::int64_t work() const { return work_; }
 
  private:

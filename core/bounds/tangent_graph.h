@@ -16,7 +16,7 @@
 namespace fleetplan::core {
 
 /// Gaps of an even number of cells that a disk fits exactly. Its centre would have to move along a grid line
-/// there; a robot that starts, stops and turns on cell centres never does.
+/// there. A robot that starts, stops and turns on cell centres never does.
 class TightGaps {
  public:
   /// `radius` of the robot, metres. If it may stop elsewhere than at centres of cells, no gap is tight.
@@ -32,9 +32,9 @@ class TightGaps {
   int width_;  // cells, even; 0 if the disk has no tight gap
 };
 
-/// One of the two ways around a corner: the quarter of the circle of the disk's radius around the corner that
-/// faces away from the blocked cell, with the corner on the left or on the right. A place on it is an angle
-/// from -pi/4, where the quarter begins, to pi/4, where it ends.
+/// One of the two ways around a corner: a quarter of a circle of the disk's radius around the corner. The
+/// quarter faces away from the blocked cell. The corner is on the left or on the right. A place on the bend
+/// is an angle, from -pi/4 at its beginning to pi/4 at its end.
 struct Bend {
   int corner = 0;
   bool left = false;  // the corner is on the left
@@ -51,7 +51,7 @@ struct Tangent {
   Position end{0.0, 0.0};
 };
 
-/// The headings that a disk has on a bend lie in one quadrant: the signs of their cosine and sine, and the
+/// The quadrant that contains all headings of a disk on a bend: the signs of their cosine and sine, and the
 /// heading in the middle.
 struct Quadrant {
   double x;
@@ -74,14 +74,14 @@ inline TangentEnd at_point(const Position& point) { return {point, 0.0, nullptr}
 /// Rounding of the direction of a tangent that crosses between two circles that nearly touch (radians).
 inline constexpr double kDirectionRounding = 1e-7;
 
-/// Whether `direction` is a heading of the bend, if each of its components may be off by `slack`.
+/// Whether `direction` is a heading of the bend. Each of its components may be off by `slack`.
 inline bool is_heading_of(const TangentEnd& end, const Position& direction, double slack) {
   return end.quadrant == nullptr ||
          (direction.x() * end.quadrant->x >= -slack && direction.y() * end.quadrant->y >= -slack);
 }
 
-/// By how much a component of the vector `d` between two centres may differ from that of a tangent of their
-/// circles, whose offsets differ by `across`.
+/// Let `d` be the vector between two centres, and `across` the difference of their circles' offsets. Returns
+/// how much a component of `d` may differ from the same component of a tangent of the circles.
 inline double tangent_slack(const Position& d, double across) {
   return across + kDirectionRounding * (std::abs(d.x()) + std::abs(d.y()));
 }
@@ -93,28 +93,30 @@ inline bool may_be_tangent(const TangentEnd& from, const TangentEnd& to) {
   return is_heading_of(from, d, slack) && is_heading_of(to, d, slack);
 }
 
-/// The tangent without `to`; none if it does not exist or touches a circle outside its bend. Also none if it
-/// runs along an axis and only grazes the beginning of the bend that it leaves or the end of the one that it
-/// arrives at: no taut path bends there, as one longer move does the same.
+/// The tangent, without `to`. None if it does not exist or touches a circle outside its bend. Also none if it
+/// runs along an axis and only grazes the beginning of the bend that it leaves, or the end of the bend where
+/// it arrives. No taut path bends there, because one longer move does the same.
 std::optional<Tangent> common_tangent(const TangentEnd& from, const TangentEnd& to);
 
-/// The tangent graph of a disk of one radius (Liu and Arimoto, IJRR 1992). A taut path, one that cannot be
-/// made shorter by pulling, consists of straight moves and arcs of the disk's radius around convex corners:
-/// the edges and nodes of the graph. Tangents through tight gaps (see TightGaps) are left out. Computed on
-/// first use; not thread-safe. Tests against obstacles allow for kRadiusReduction, so that no taut path of a
-/// disk that is in contact with obstacles is missed.
+/// The tangent graph of a disk of one radius (Liu and Arimoto, IJRR 1992). A taut path cannot be made shorter
+/// by pulling. It consists of straight moves, and of arcs of the disk's radius around convex corners: the
+/// edges and nodes of the graph. Tangents through tight gaps (see TightGaps) are left out. Computed on first
+/// use; not thread-safe.
+///
+/// Tests against obstacles allow for kRadiusReduction, so that no taut path of a disk in contact with
+/// obstacles is missed.
 class TangentGraph {
  public:
-  /// Metres by which the disk is smaller than the robot; 200 times the slack of the search, so
-  /// that neither that nor rounding makes a path of the robot impossible for the disk.
+  /// Metres by which the disk is smaller than the robot: 200 times the slack of the search. So neither the
+  /// slack nor rounding makes a path of the robot impossible for the disk.
   static constexpr double kRadiusReduction = 1e-7;
 
   /// The graph for a robot of `radius` metres (> 2 kRadiusReduction). `stops_at_cell_centers`: whether
-  /// centres of cells are the only vertices of its lattice; otherwise no gap is tight.
+  /// centres of cells are the only vertices of its lattice. Otherwise, no gap is tight.
   TangentGraph(CornerVisibility& corners, const LineOfSight& sight, double radius,
                bool stops_at_cell_centers = true);
 
-  /// The radius of the disk, metres: that of the robot less kRadiusReduction.
+  /// The radius of the disk, metres: the robot's radius minus kRadiusReduction.
   double radius() const { return radius_; }
   int bend_count() const { return 2 * corners_.count(); }
   static int index(const Bend& bend) { return 2 * bend.corner + (bend.left ? 1 : 0); }
@@ -128,7 +130,7 @@ class TangentGraph {
   std::optional<Tangent> to_point(const Bend& from, const Position& point);
 
   bool is_free(const Tangent& tangent);
-  /// Whether the k-th tangent in `from(bend)` is free; the result is stored.
+  /// Whether the k-th tangent in `from(bend)` is free. The result is stored.
   bool is_free(const Bend& bend, int k);
   /// Whether the disk can follow the arc between two places on the bend. Obstacles that reach less than a
   /// piece of 5.6 degrees into the arc may be overlooked.

@@ -24,15 +24,15 @@ struct TautPathResult {
   bool cut_off = false;  // the stop condition was met first
 };
 
-/// The cheapest taut path of a robot that is alone on the static map and may turn anywhere, arcs included: a
-/// lower bound of the cost of its plans. A* (Hart, Nilsson and Raphael, 1968) on the tangent graph (Liu and
-/// Arimoto, IJRR 1992), with the straight cost as the heuristic.
+/// The cheapest taut path of a robot that is alone on the static map and may turn anywhere, arcs included.
+/// Its cost is a lower bound of the cost of the robot's plans. A* (Hart, Nilsson and Raphael, 1968) on the
+/// tangent graph (Liu and Arimoto, IJRR 1992), with the straight cost as the heuristic.
 ///
-/// Paths that can be deformed into each other, without crossing obstacles grown by the radius, form a class.
-/// The taut path of a class has the least length and the least total rotation of the class (docs/proofs.md,
-/// Lemma 2). If it bends, and k of its straight pieces lie between bends of opposite sense, every path of the
-/// class has at least k + 2 translations, each with an added wait (Lemma 3). So no plan costs less than the
-/// cheapest taut path.
+/// Take all obstacles, grown by the radius. Paths that can be deformed into each other without crossing them
+/// form a class. The taut path of a class has the least length and the least total rotation of the class
+/// (docs/proofs.md, Lemma 2). Suppose that it bends, and that k of its straight pieces lie between bends of
+/// opposite sense. Then every path of the class has at least k + 2 translations, each with an added wait
+/// (Lemma 3). So no plan costs less than the cheapest taut path.
 class TautPathSearch {
  public:
   /// Searches taut paths of robots of one radius (metres).
@@ -40,10 +40,10 @@ class TautPathSearch {
                  bool stops_at_cell_centers = true)
       : corners_(corners), graph_(corners, sight, radius, stops_at_cell_centers) {}
 
-  /// Returns the lower bound for a leg whose end is not in sight of its begin. `motion` has the robot's
-  /// radius and speeds. Paths that cost more than `known_cost`, the cost of a known path in seconds (infinite
-  /// for none), are not explored. After `max_work`, or when `stop` is met, returns the bound that is proved
-  /// by then.
+  /// Returns the lower bound for a leg whose end is not in sight of its begin. `body` has the robot's radius
+  /// and speeds. `known_cost` is the cost of a known path in seconds (infinite for none). Paths that cost
+  /// more are not explored. After `max_work`, or when `stop` is met, returns the bound that is proved by
+  /// then.
   TautPathResult run(const GoalLeg& leg, const Body& body, double known_cost, std::int64_t max_work,
                      const StopCondition& stop);
 
@@ -82,7 +82,7 @@ class TautPathSearch {
   TangentGraph graph_;
   std::int64_t steps_ = 0;  // tangents examined
 
-  // The members below belong to the current search. They are members so that their memory is used again.
+  // The members below belong to the current search. They are members so that their memory is reused.
   const GoalLeg* leg_ = nullptr;
   Body body_;                         // without inertia of translations
   double bend_time_ = 0.0;            // seconds for a radian of an arc
@@ -94,18 +94,19 @@ class TautPathSearch {
   IndexedVector<int> last_arrival_;  // by bend, the head of its list
 };
 
-/// Lower bounds of the costs of robots, each alone on the static map, seconds: the straight line with its
-/// rotations where it is free, the cheapest taut path elsewhere (see TautPathSearch); from goal to goal, with
-/// the services, after the committed actions.
+/// Lower bounds of the costs of robots, each alone on the static map, seconds. They go from goal to goal,
+/// with the services, after the committed actions. If the straight line is free, the bound is its cost with
+/// the rotations. Otherwise, it is the cost of the cheapest taut path (see TautPathSearch).
 class TautPathBounds {
  public:
-  /// Bounds the costs of `robots`, all with goals. `costs`, by robot, are those of a known plan; infinite for
-  /// none. The work is limited to about half a second: beyond it, on large maps full of corners, or when
-  /// `stop` is met or the memory spent, bounds are weaker, down to the straight line.
+  /// Bounds the costs of `robots`, which all have goals. `costs` are the costs of a known plan, by robot;
+  /// infinite for none. The work is limited to about half a second, which large maps full of corners can
+  /// exceed. Bounds are weaker, down to the straight line, beyond this limit, when `stop` is met, or when the
+  /// memory is spent.
   TautPathBounds(const Instance& instance, const std::vector<std::size_t>& robots,
                  const std::vector<double>& costs, const StopCondition& stop);
 
-  /// The lower bound of a robot's cost, seconds; 0 for a robot that was not among `robots`.
+  /// The lower bound of a robot's cost, seconds. 0 for a robot that was not among `robots`.
   double operator[](std::size_t robot) const { return seconds_[robot]; }
   /// Whether `stop` or a lack of memory weakened a bound.
   bool cut_off() const { return cut_off_; }
@@ -121,7 +122,7 @@ class TautPathBounds {
 
   void bound(const Instance& instance, const std::vector<std::size_t>& robots,
              const std::vector<double>& costs, const StopCondition& stop);
-  /// Replaces the bounds of these legs by those of their taut paths.
+  /// Replaces the bounds of these legs by the bounds of their taut paths.
   void improve(const Instance& instance, const LegsByRadius& out_of_sight, std::vector<Way>& ways,
                const std::vector<double>& costs, const StopCondition& stop);
 
