@@ -1,7 +1,7 @@
 #pragma once
 
-// How a robot drives whose acceleration is limited: as fast as its limits allow, and so that it stands where
-// it has to stop. Where that is may change while it is on its way.
+// How a robot with limited acceleration drives: as fast as its limits allow, and so that it stands where it
+// has to stop. This place may change while the robot is on its way.
 
 #include <cstddef>
 #include <vector>
@@ -12,8 +12,8 @@
 
 namespace fleetplan::core {
 
-/// Returns the number of the action after those that follow each other without a stop: this one, which has a
-/// profile, and the translations that go on at speed.
+/// Returns the number of the action after this drive. The drive is this action, which has a profile, and the
+/// translations that follow it at speed.
 std::size_t end_of_drive(Actions actions, std::size_t first);
 
 /// A part of a drive within one action, at constant acceleration. Times in seconds.
@@ -27,18 +27,18 @@ struct DrivenPiece {
 };
 
 /// One drive: actions that follow each other without a stop, unless the robot has to stop in between. Places
-/// are in metres (or radians) from the begin of the first action on. A robot that has not been headed for a
-/// place stands.
+/// are in metres (or radians) from the begin of the first action. The robot stands until head_for() is
+/// called.
 class Drive {
  public:
-  /// The actions from `first` on, to the end of the drive. Speeds are those of the profiles, times `factors`
-  /// (> 0, one by action of the drive, or one for all). At `t`, the robot has done this fraction of the first
-  /// one and has this speed (metres or radians per second), which is lowered where it could not stop
-  /// otherwise.
+  /// The actions from `first` on, to the end of the drive. Speeds are the speeds of the profiles, times
+  /// `factors` (> 0, one by action of the drive, or one for all). At `t`, the robot has done this fraction of
+  /// the first action and has this speed (metres or radians per second). The speed is lowered where the robot
+  /// could not stop otherwise.
   Drive(Actions actions, std::size_t first, const std::vector<double>& factors, double t, double speed,
         double fraction = 0.0);
 
-  /// The number of the action after those of the drive.
+  /// The number of the action after the actions of the drive.
   std::size_t end() const { return first_ + parts_.size(); }
   double length() const { return begins_.back(); }
   /// Returns the place of a progress within these actions.
@@ -52,11 +52,11 @@ class Drive {
 
   /// Plans the way from where the robot is to rest at a place ahead.
   void head_for(double place);
-  /// The place that the robot heads for; where it is if it stands.
+  /// The place that the robot heads for. If it stands, the place where it is.
   double heading_for() const { return stands() ? at_ : pieces_.back().to; }
   /// Returns when the robot comes to a place on its way.
   double time_at(double place) const;
-  /// Drives on to a place on its way, or until a time. Returns what it drives.
+  /// Drives on to a place on its way, or until a time. Returns the pieces that it drives.
   std::vector<DrivenPiece> drive_to(double place);
   std::vector<DrivenPiece> drive_until(double t);
   /// Stands until a later time.

@@ -1,8 +1,8 @@
 #pragma once
 
-// What robots execute, as far as it is planned: their actions, what their waits are for, and when which
-// progress is planned. Whole progress is the number of actions executed and the fraction of the one under
-// way: of its length, if its speed changes.
+// The planned execution of robots: their actions, what their waits are for, and the planned times of
+// progress. Whole progress is the number of actions executed, plus the fraction of the action under way. If
+// its speed changes, this is a fraction of its length.
 
 #include <cstddef>
 #include <span>
@@ -19,25 +19,25 @@ namespace fleetplan::core {
 /// The actions of one robot.
 using Actions = std::span<const Action>;
 
-/// Returns by robot the actions that it executes: those of its plan; without a plan the committed ones, or
-/// none if the robot is invalid. The spans refer to the arguments.
+/// Returns, by robot, the actions that it executes: the actions of its plan. Without a plan, the committed
+/// actions, or none if the robot is invalid. The spans refer to the arguments.
 std::vector<Actions> executed_actions(const std::vector<Robot>& robots, const std::vector<RobotPlan>& plans);
 
 /// The planned time of a progress in these actions, seconds. An action without duration happens when it ends.
 double planned_time(Actions actions, std::size_t action, double fraction);
 
-/// What a wait is for. The rest of it only gives way to others, or keeps to the clock.
+/// What a wait is for. The rest of the wait only gives way to others, or keeps to the clock.
 struct WaitPurpose {
   double least = 0.0;       // seconds: a service, or a wait that was added before a translation
   double not_before = 0.0;  // seconds: these do not begin earlier
 };
 
-/// Returns by action what its wait is for; an action that does not wait has no purpose. `wait_before_move`:
+/// Returns, by action, what its wait is for. An action that does not wait has no purpose. `wait_before_move`:
 /// PlanOptions::wait_before_move in seconds, or 0 if added waits may be shortened. A service at the end of a
 /// longer added wait counts towards it.
 std::vector<WaitPurpose> wait_purposes(const Robot& robot, Actions actions, double wait_before_move);
 
-/// A translation, a phase of one with a profile, or consecutive actions in one place.
+/// A translation, a phase of a translation with a profile, or consecutive actions in one place.
 struct PlannedStretch {
   TimedSegment planned;   // the last one has no end: the robot rests
   double begin = 0.0;     // whole progress
@@ -56,11 +56,11 @@ class Pace {
   /// Returns the time of a whole progress, seconds.
   double time_at(double progress) const;
 
-  /// Returns the progress as a gate, which the robot may not pass: between two actions, the begin of the
-  /// later one.
+  /// Returns the progress as a gate, which the robot may not pass. Between two actions, it is the begin of
+  /// the later action.
   ActionProgress gate(std::size_t robot, double progress) const;
-  /// Returns the progress as a point that the robot must reach: between two actions, the end of the earlier
-  /// one.
+  /// Returns the progress as a point that the robot must reach. Between two actions, it is the end of the
+  /// earlier action.
   ActionProgress until(std::size_t robot, double progress) const;
 
  private:
@@ -68,8 +68,8 @@ class Pace {
 };
 
 /// The stretches of a robot that executes these actions, from t = 0 in its start. `margin` (metres) is added
-/// to its radius, which changes with the goals that it serves (Goal::radius_after). During the action that
-/// ends with such a change it takes the larger space.
+/// to its radius, which changes with the goals that it serves (Goal::radius_after). During an action that
+/// ends with such a change, the robot takes the larger space.
 std::vector<PlannedStretch> stretches_of(const Robot& robot, Actions actions, double margin);
 
 }  // namespace fleetplan::core

@@ -1,8 +1,8 @@
 #pragma once
 
-// The dependencies between two robots. Where two of their stretches are too near each other, whatever the
-// timing, the progress of both has a region that they keep out of; the fewest steps that keep them out of all
-// such regions are a staircase.
+// The dependencies between two robots. If two of their stretches are too near each other, whatever the
+// timing, the progress of both must keep out of a region. The fewest steps that keep it out of all such
+// regions are a staircase.
 
 #include <cstdint>
 #include <optional>
@@ -15,9 +15,9 @@
 
 namespace fleetplan::core {
 
-/// The shares (u, v) with |p(u) - q(v)| < distance, where p and q go along two segments. Positions are affine
-/// in u and v, so this is the inside of an ellipse, or a strip if the segments are parallel, cut to the unit
-/// square: open in it, and convex. A segment of length 0 is a robot that stands.
+/// The shares (u, v) with |p(u) - q(v)| < distance, where p and q move along two segments. Positions are
+/// affine in u and v. So this is the inside of an ellipse, or a strip if the segments are parallel, cut to
+/// the unit square: open in it, and convex. A segment of length 0 is a robot that stands.
 class ConflictRegion {
  public:
   ConflictRegion(const Segment& first, const Segment& second, double distance);
@@ -27,10 +27,10 @@ class ConflictRegion {
     double least = 0.0;
     double most = 0.0;
   };
-  /// Returns the shares of the second line in the part of the region with `from` <= u <= 1; none if that part
+  /// Returns the shares of the second line in the part of the region with `from` <= u <= 1. None if this part
   /// is empty.
   std::optional<Range> second_beyond(double from) const;
-  /// Returns the shares of the first line in the part of the region with 0 <= v <= `to`; none if that part is
+  /// Returns the shares of the first line in the part of the region with 0 <= v <= `to`. None if this part is
   /// empty.
   std::optional<Range> first_up_to(double to) const;
 
@@ -41,8 +41,8 @@ class ConflictRegion {
   double distance_;
 };
 
-/// A region of whole progress (u, v) through which the robot of u goes first: one robot passes it before
-/// another one enters.
+/// A region of whole progress (u, v) through which the robot of u goes first: it passes the region before the
+/// other robot enters.
 class PassedRegion {
  public:
   /// A stretch in whole progress: where it begins, and its length.
@@ -58,11 +58,11 @@ class PassedRegion {
   /// Returns the greatest u of the points with at most this v; minus infinity if there are none.
   double first_before(double second) const;
 
-  /// Bounds that rounding respects: second_after is never less than `least_second`, and infinite from
-  /// `most_first` on; first_before is never more than `most_first`, and infinite up to `least_second`.
+  /// Bounds that rounding respects. second_after() is never less than `least_second`, and infinite from
+  /// `most_first` on. first_before() is never more than `most_first`, and infinite up to `least_second`.
   double least_second() const { return least_second_; }
   double most_first() const { return most_first_; }
-  /// Whether the region continues for all u before its first stretch, and for all v after its second one.
+  /// Whether the region continues for all u before its first stretch, and for all v after its second stretch.
   bool is_open() const { return is_open_; }
 
  private:
@@ -80,7 +80,7 @@ struct Step {
   double until = 0.0;
 };
 
-/// A lack of slack: the planned time of it, and the slack that there is, seconds.
+/// A lack of slack: its planned time, and the slack that there is, seconds.
 struct Tightness {
   double t = 0.0;
   double slack = 0.0;
@@ -91,10 +91,11 @@ struct Staircase {
   std::vector<Tightness> tight;  // one for each uninterrupted lack of slack, at its least
 };
 
-/// Returns the fewest steps that keep (u, v) out of all regions, each with the planned slack (seconds, > 0),
-/// or with half of it where the whole slack would mean many small steps. Where the plan has less slack, a
-/// step demands what the plan has, so that both robots can go on; the regions are not excluded there, and the
-/// staircase is tight. Returns none if the stop condition is met.
+/// Returns the fewest steps that keep (u, v) out of all regions, each with the planned slack (seconds, > 0).
+/// If the whole slack would need many small steps, a step has half of it.
+///
+/// If the plan has less slack, a step demands only the slack of the plan, so that both robots can go on. The
+/// regions are not excluded there, and the staircase is tight. Returns none if the stop condition is met.
 std::optional<Staircase> staircase_of(const std::vector<PassedRegion>& regions, const Pace& first,
                                       const Pace& second, double slack, const StopCondition& stop);
 
@@ -111,15 +112,15 @@ struct PairDependencies {
   std::vector<Tightness> tight;
 };
 
-/// One of two robots: its motion in stretches, and when it is planned.
+/// One of two robots: its motion in stretches, and the planned times.
 struct PacedRobot {
   const std::vector<PlannedStretch>& stretches;
   const Pace& pace;
 };
 
-/// Returns the dependencies between two robots that keep them apart by the sum of their radii less
-/// `tolerance` (metres). `near`: stretches of the first robot (NearPair::other_stretch) near those of the
-/// second. Returns none if the stop condition is met.
+/// Returns the dependencies between two robots that keep them apart by the sum of their radii minus
+/// `tolerance` (metres). `near`: stretches of the first robot (NearPair::other_stretch) near stretches of the
+/// second robot. Returns none if the stop condition is met.
 std::optional<PairDependencies> pair_dependencies(const PacedRobot& first, const PacedRobot& second,
                                                   std::span<const NearPair> near, double tolerance,
                                                   double slack, const StopCondition& stop);

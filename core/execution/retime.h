@@ -1,6 +1,6 @@
 #pragma once
 
-// When robots that execute a plan with dependencies will arrive, and which robots make late ones late.
+// When robots that execute a plan with dependencies will arrive, and which robots cause the delays of others.
 
 #include <cstddef>
 #include <optional>
@@ -34,18 +34,24 @@ struct RetimedRobot {
   double begin = 0.0;        // seconds: now, the begin of what is left of the action under way
   double delay = 0.0;        // seconds: by how much it arrives later than planned, or earlier if negative
   /// For a robot that arrives late: the robot it waited for last, and the robot whose delay is the root
-  /// cause; itself if it is late by its own doing.
+  /// cause. A robot that is late by itself is its own root cause.
   std::optional<std::size_t> waits_for = {};
   std::optional<std::size_t> because_of = {};
 };
 
-/// Returns by robot the new times of its actions, if every robot goes on: moves take their planned time
-/// divided by the speed factor, or with a profile its cruise speed is multiplied by it; services last as long
-/// as planned and begin no earlier than they may, and other waits end when planned, or at once if that time
-/// has passed. A robot with profiles brakes for a gate, and goes on from the speed that it has when the gate
-/// opens. Without delays these are the planned times, except where a gate opens so late that a robot has
-/// begun to brake. Robots without a state are as planned. `dependencies`: each `until` is planned before its
-/// `gate`. `actions`: contiguous in time, ascending. Returns none if the stop condition is met.
+/// Returns, by robot, the new times of its actions, if every robot goes on:
+///
+/// - Moves take their planned time divided by the speed factor. With a profile, the cruise speed is
+///   multiplied by the factor.
+/// - Services last as long as planned, and begin no earlier than they may.
+/// - Other waits end when planned, or at once if this time has passed.
+/// - A robot with profiles brakes for a gate. It goes on from the speed that it has when the gate opens.
+///
+/// Without delays, these are the planned times, unless a gate opens so late that a robot has begun to brake.
+/// Robots without a state are as planned.
+///
+/// `dependencies`: each `until` is planned before its `gate`. `actions`: contiguous in time, ascending.
+/// Returns none if the stop condition is met.
 std::optional<std::vector<RetimedRobot>> retime(const std::vector<Robot>& robots,
                                                 const std::vector<Actions>& actions,
                                                 const std::vector<Dependency>& dependencies,

@@ -1,8 +1,8 @@
 #pragma once
 
 // What delays robots, and how far they drive beside their paths. Drawn for one execution of a fleet at a
-// time. The phases of an action, or the drive of a robot with profiles, are what a robot has to do, as far as
-// its policy may not change it.
+// time. Also: what a robot has to do and its policy may not change, as phases of an action, or as a drive
+// with profiles.
 
 #include <cstddef>
 #include <cstdint>
@@ -26,13 +26,13 @@ struct UniformRange {
 
 /// What disturbs the execution of a plan. The default disturbs nothing.
 struct Disturbance {
-  /// Stops as a Poisson process in the time that a robot moves, of exponential durations.
+  /// Stops: a Poisson process in the time during which a robot moves, with exponential durations.
   struct Stops {
     double rate_per_hour = 0.0;
     double mean_s = 0.0;
   };
-  /// Offsets to the left of a translation, metres: normal values about one correlation length apart, linear
-  /// between them, and 0 at both ends of the translation.
+  /// Offsets to the left of a translation, metres. They are normal values about one correlation length apart,
+  /// linear between them, and 0 at both ends of the translation.
   struct CrossTrack {
     double sigma = 0.0;
     double correlation_length = 1.0;  // metres, > 0
@@ -49,7 +49,7 @@ struct Disturbance {
 
 /// The disturbances of the actions of one robot in one execution.
 struct DisturbedActions {
-  /// A robot stands still when it has moved for `after` seconds in an action.
+  /// A robot stands still after it has moved for `after` seconds in an action.
   struct Halt {
     double after = 0.0;
     double seconds = 0.0;
@@ -81,22 +81,22 @@ struct DisturbedActions {
 };
 
 /// Returns the disturbances of every plan in run number `run`, in the order of `plans`. They depend only on
-/// the plans, the disturbance, the seed and the number of the run, so every policy is disturbed equally.
+/// the plans, the disturbance, the seed and the number of the run. So every policy is disturbed equally.
 /// Returns none if `stop` is met first.
 std::optional<std::vector<DisturbedActions>> draw_disturbances(const std::vector<RobotPlan>& plans,
                                                                const Disturbance& disturbance,
                                                                std::uint64_t seed, std::uint64_t run,
                                                                const StopCondition& stop);
 
-/// A part of an action that takes a fixed time. During it the robot moves at constant speed from the end of
-/// the part before to this fraction of the action; it stands if the fraction is the same.
+/// A part of an action that takes a fixed time. The robot moves at constant speed from the end of the part
+/// before to this fraction of the action. It stands if the fraction is the same.
 struct ActionPhase {
   double seconds = 0.0;
   double to_fraction = 0.0;
 };
 
-/// The phases of a rotation or translation, after its start delay: it moves and halts in turn, as if at its
-/// mean speed. Returns none if `stop` is met first.
+/// The phases of a rotation or translation, after its start delay: the robot moves and halts in turn, as if
+/// at its mean speed. Returns none if `stop` is met first.
 std::optional<std::vector<ActionPhase>> moving_phases(const DisturbedActions& disturbed, std::size_t action,
                                                       const StopCondition& stop);
 
@@ -105,8 +105,8 @@ inline bool goes_on_at_speed(Actions actions, std::size_t action) {
   return actions[action].profile && actions[action].profile->start > 0.0;
 }
 
-/// A drive with profiles, and the halts on its way: the robot brakes so that it stands for a while at each.
-/// It halts where the undisturbed robot is after the same share of the time of the action.
+/// A drive with profiles, and the halts on its way. The robot brakes so that it stands for a while at each
+/// halt. It halts where the undisturbed robot is after the same share of the action's time.
 struct DisturbedDrive {
   struct Halt {
     double place = 0.0;  // of the drive

@@ -24,8 +24,8 @@ struct ExecutionKnot {
   double ramp = 0.0;  // how the speed changes from the knot before, see TimedSegment
 };
 
-/// The progress of a robot: at constant acceleration, mostly 0, from knot to knot within an action. Every
-/// action that has begun has a knot with fraction 0.
+/// The progress of a robot. Within an action, acceleration is constant from knot to knot, and usually 0.
+/// Every action that has begun has a knot with fraction 0.
 struct ExecutedProgress {
   std::vector<ExecutionKnot> knots;
   bool arrived = true;  // false: it stands at the last knot for ever
@@ -33,22 +33,22 @@ struct ExecutedProgress {
   double end() const { return knots.empty() ? 0.0 : knots.back().t; }
 };
 
-/// Returns where the robot is from t = 0 on, as legs like those of `execute`; stand-stills in one place are
-/// one leg. Returns none if `stop` is met first.
+/// Returns where the robot is from t = 0 on, as legs like the legs of `execute`. Several stand-stills in one
+/// place are one leg. Returns none if `stop` is met first.
 std::optional<std::vector<Leg>> executed_legs(const Robot& robot, const std::vector<Action>& planned,
                                               const DisturbedActions& disturbed,
                                               const ExecutedProgress& progress, const StopCondition& stop);
 
 /// Returns the executed motion as actions, contiguous in time and space: planned actions at their executed
-/// times, cut where the robot halts, or where the offset from its path changes. Headings are those of the
-/// plan. Of an action with a profile, the parts have one, too, unless a clock changed their acceleration.
-/// Returns none if there are more than `max_actions`, or if `stop` is met first.
+/// times. They are cut where the robot halts, or where the offset from its path changes. Headings are the
+/// planned headings. The parts of an action with a profile have a profile, too, unless a clock changed their
+/// acceleration. Returns none if there are more than `max_actions`, or if `stop` is met first.
 std::optional<std::vector<Action>> disturbed_actions(const std::vector<Action>& planned,
                                                      const DisturbedActions& disturbed,
                                                      const ExecutedProgress& progress,
                                                      std::size_t max_actions, const StopCondition& stop);
 
-/// Returns the progress of robots that follow their profiles as time goes by: `by_time` has fractions of the
+/// Returns the progress of robots that follow their profiles over time. `by_time` has fractions of the
 /// planned duration of actions, and constant speeds.
 ExecutedProgress by_profiles(const std::vector<Action>& planned, ExecutedProgress by_time);
 
@@ -72,7 +72,7 @@ class ProgressBuilder {
     fraction_ = to_fraction;
     add_knot();
   }
-  /// Moves as a drive does, which may lead through several actions.
+  /// Moves as a drive does. The drive may lead through several actions.
   void drive(const std::vector<DrivenPiece>& pieces) {
     // Bounded: the pieces, and each action once.
     for (const DrivenPiece& piece : pieces) {
@@ -85,7 +85,7 @@ class ProgressBuilder {
       add_knot(piece.ramp);
     }
   }
-  /// Completes the actions before `end`, as far as they are within rounding.
+  /// Completes the actions before `end` that are complete within rounding.
   void complete(std::size_t end) {
     while (action_ + 1 < end) {
       go_on(0.0, 1.0);

@@ -16,13 +16,13 @@
 namespace fleetplan::core {
 
 enum class ExecutionPolicy {
-  /// Every action lasts its planned time, disturbed. No robot looks at a clock or at others.
+  /// Every action lasts its planned time, plus disturbances. No robot looks at a clock or at others.
   open_loop,
   /// A wait ends at its planned time, or at once if that has passed (paper, "Increasing robustness").
   absorb_waits,
   /// Robots obey the dependencies, and skip waits that only give way.
   dependencies,
-  /// All follow one clock, which slows down so that no robot is later by it than the largest delay.
+  /// All robots follow one clock. It slows down so that no robot is later than the largest delay.
   clock_stop,
 };
 
@@ -36,9 +36,9 @@ struct PlannedExecution {
   double max_delay = 0.0;  // for the policy `clock_stop`: seconds, >= 0
 };
 
-/// Executes one plan under a policy in which robots do not communicate: `open_loop` or `absorb_waits`. A
-/// robot with profiles has the factors of the disturbance on its cruise speeds, and brakes for halts. Returns
-/// none if `stop` is met first.
+/// Executes one plan under a policy in which robots do not communicate: `open_loop` or `absorb_waits`. For a
+/// robot with profiles, the factors of the disturbance apply to its cruise speeds, and it brakes for halts.
+/// Returns none if `stop` is met first.
 std::optional<ExecutedProgress> execute_alone(const PlannedExecution& planned, std::size_t plan,
                                               const DisturbedActions& disturbed, const StopCondition& stop);
 
@@ -48,11 +48,14 @@ std::optional<std::vector<ExecutedProgress>> execute_dependencies(
     const PlannedExecution& planned, const std::vector<DisturbedActions>& disturbed,
     const StopCondition& stop);
 
-/// Executes all plans under the policy `clock_stop`: by a clock that all robots share, no action begins
-/// before its planned time, and no robot moves faster than planned. While a robot is as late as is allowed
-/// and slower than planned, the clock and all other robots go as slowly as that robot; they stand while it
-/// stands. This is the limit of robots that stop whenever one of them is later, if that is noticed at once.
-/// With a profile, a robot is where the profile is at its own time, and changes its pace at once, too.
+/// Executes all plans under the policy `clock_stop`, with a clock that all robots share. No action begins
+/// before its planned time, and no robot moves faster than planned.
+///
+/// When a robot is as late as allowed and slower than planned, the clock and all other robots slow down to
+/// its pace. They stand while it stands. This is the limit of robots that stop whenever a robot is later, if
+/// they notice it at once. With a profile, a robot is where the profile is at its own time. It also changes
+/// its pace at once.
+///
 /// Returns none if `stop` is met first.
 std::optional<std::vector<ExecutedProgress>> execute_with_clock(
     const PlannedExecution& planned, const std::vector<DisturbedActions>& disturbed,

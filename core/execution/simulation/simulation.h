@@ -1,9 +1,10 @@
 #pragma once
 
-// A Monte-Carlo study: a plan is executed many times with other disturbances, in continuous time and without
-// time steps, and each execution is checked by the formulas of the checker.
+// A Monte-Carlo study: a plan is executed many times with different disturbances, in continuous time and
+// without time steps. Each execution is checked by the formulas of the checker.
 //
 // A run ends when no robot can go on, which its policy decides:
+//
 // - `open_loop`, `absorb_waits`: when each robot has executed all of its actions (`execute_alone` in
 //   execution_policy.cpp).
 // - `dependencies`: when no robot is ready to go on and no event of a drive is left
@@ -11,9 +12,10 @@
 //   ever and has not arrived: a deadlock.
 // - `clock_stop`: when every robot has ended the last phase of its last action (`ClockedExecution::run` in
 //   execute_with_clock.cpp). All robots arrive.
+//
 // A robot's end is the last knot of its progress (`ExecutedProgress::end`): it has executed its last action,
-// or waits for ever. There it rests, and so the check of a run has no end: it covers all time
-// (`executed_legs`). A run that the stop condition ends has no outcome and does not count.
+// or waits for ever. It rests there. So the check of a run covers all time, without an end (`executed_legs`).
+// A run that the stop condition ends has no outcome and does not count.
 
 #include <cstddef>
 #include <cstdint>
@@ -48,16 +50,16 @@ struct ExecutionCollisions {
   std::vector<std::pair<std::size_t, std::size_t>> pairs;  // robots that collide, ascending
 };
 
-/// Finds the collisions of robots whose `legs` and `radii` (metres) are given by robot. Disks may overlap
-/// each other and walls by `tolerance` metres. Only the robots of `near_walls` are compared with the walls.
-/// Returns none if `stop` is met first.
+/// Finds the collisions of robots. `legs` and `radii` (metres) are by robot. Disks may overlap each other and
+/// walls by `tolerance` metres. Only the robots of `near_walls` are compared with the walls. Returns none if
+/// `stop` is met first.
 std::optional<ExecutionCollisions> find_collisions(const std::vector<std::vector<Leg>>& legs,
                                                    const std::vector<double>& radii, double tolerance,
                                                    const ObstacleField& field,
                                                    const std::vector<std::size_t>& near_walls,
                                                    const StopCondition& stop);
 
-/// Returns the first overlap of one robot and a wall, in the order of the legs; none if `stop` is met first.
+/// Returns the first overlap of one robot and a wall, in the order of the legs. None if `stop` is met first.
 std::optional<ExecutedCollision> find_wall(const ObstacleField& field, std::size_t robot,
                                            const std::vector<Leg>& legs, double radius, double tolerance,
                                            const StopCondition& stop);
@@ -83,12 +85,12 @@ class Simulator {
   /// The outcome of one run.
   struct Run {
     std::vector<double>
-        ends;  // seconds, by plan: when its robot arrived; of one that has not, its last moment
+        ends;  // seconds, by plan: when its robot arrived; if it has not arrived, its last moment
     std::vector<std::size_t> stuck;  // plans whose robots wait for ever, ascending
     ExecutionCollisions collisions;
   };
   /// Prepares the runs: compares the planned paths with the walls. Returns none if `stop` is met first. The
-  /// fleet has to outlive the object.
+  /// fleet must outlive the object.
   static std::optional<Simulator> make(const SimulatedFleet& fleet, const SimulationSettings& settings,
                                        const StopCondition& stop);
 
@@ -110,7 +112,7 @@ struct SimulationTrace {
   std::vector<std::vector<Action>> actions;
 };
 
-/// Executes one run and returns the actions; none if there are more than `max_actions`, or if `stop` is met
+/// Executes one run and returns the actions. None if there are more than `max_actions`, or if `stop` is met
 /// first.
 std::optional<SimulationTrace> trace_run(const SimulatedFleet& fleet, const SimulationSettings& settings,
                                          std::uint64_t number, std::size_t max_actions,
@@ -124,7 +126,7 @@ struct SimulationProgress {
   std::size_t deadlocked = 0;
 };
 
-/// The figures of a study. All of them depend on the fleet, the settings and the number of runs only.
+/// The figures of a study. They depend only on the fleet, the settings and the number of runs.
 struct SimulationReport {
   struct Numbered {
     std::size_t run = 0;
@@ -151,9 +153,9 @@ struct SimulationReport {
   std::vector<Pair> pairs;                 // the pairs that collide in most runs, ties by robots
 };
 
-/// Executes runs 0, 1, ... until all of them are done, `stop` is met, or `go_on`, which is called from time
-/// to time, returns false. The report contains the runs before the first one that is not done. The executor's
-/// threads help; the figures do not depend on their number.
+/// Executes runs 0, 1, ... until all of them are done, `stop` is met, or `go_on` returns false. `go_on` is
+/// called from time to time. The report contains the runs before the first run that is not done. The
+/// executor's threads help; the figures do not depend on their number.
 SimulationReport simulate(const SimulatedFleet& fleet, const SimulationSettings& settings,
                           const StopCondition& stop, Executor& executor,
                           const std::function<bool(const SimulationProgress&)>& go_on = {});
