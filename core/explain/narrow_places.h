@@ -1,6 +1,6 @@
 #pragma once
 
-// Where the ways of robots that have none are too narrow.
+// Where the ways of robots without a way are too narrow.
 
 #include <optional>
 #include <vector>
@@ -14,8 +14,8 @@
 namespace fleetplan::core {
 
 /// Returns, for each robot without a plan, the narrowest place of the widest way between obstacles to its
-/// goal, if these close it off. Of many such robots, or on large maps, only the first are examined, until the
-/// stop condition is met.
+/// goal, if obstacles close it off. Of many such robots, or on large maps, only the first are examined, until
+/// the stop condition is met.
 std::vector<std::optional<NarrowPlace>> narrow_places(const Problem& problem, const PlanOptions& options,
                                                       const std::vector<Unplanned>& unplanned,
                                                       const StopCondition& stop);

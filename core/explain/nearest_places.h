@@ -9,18 +9,18 @@
 
 namespace fleetplan::core {
 
-/// Finds the nearest places where disks fit that do not fit where they are, for messages. All of them
+/// Finds the nearest places with room for disks that do not fit where they are. For messages. All of them
 /// together take a bounded number of tests.
 class NearestPlaces {
  public:
-  /// `origin` is that of the map in the world, where the coordinates that are found have few decimals.
+  /// `origin`: the map's origin in the world, where the coordinates found have few decimals.
   NearestPlaces(const Position& origin, const StopCondition& stop) : origin_(origin), stop_(stop) {}
   NearestPlaces(const NearestPlaces&) = delete;
   NearestPlaces& operator=(const NearestPlaces&) = delete;
 
-  /// Returns a place where the disk fits, the nearest one to within 2 %, or 1 cm for the sake of fewer
-  /// decimals. The disk overlaps obstacles by `overlap` (metres, > 0) at `from`, and no place is nearer than
-  /// that. None if none is found.
+  /// Returns a place where the disk fits. It is the nearest place to within 2 %, or 1 cm for fewer decimals.
+  /// The disk overlaps obstacles by `overlap` (metres, > 0) at `from`, and no place is nearer than that. None
+  /// if no place is found.
   std::optional<Position> of(const LineOfSight& sight, const Position& from, double radius, double overlap);
 
  private:

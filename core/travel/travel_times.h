@@ -21,7 +21,7 @@ struct Travel {
   double metres = 0.0;
 };
 
-/// The ways that are asked for: from where the robots of a problem begin, to one of these goals each.
+/// The ways that are asked for: from where each robot of a problem begins to one of these goals.
 struct TravelQuestions {
   struct Column {
     Goal goal;
@@ -34,29 +34,33 @@ struct TravelQuestions {
 /// By column, then as in Column::robots; none where there is no way.
 using TravelAnswers = std::vector<std::vector<std::optional<Travel>>>;
 
-/// Returns the fastest ways that the planner knows for robots that are alike and on the map one at a time
+/// Returns the fastest ways that the planner knows, for similar robots that are on the map one at a time
 /// (ProblemConditions). The goals of the problem's own robots do not matter. None if `stop` is met first, or
 /// if `go_on`, which may be empty, ends it (SharedTurn).
 ///
-/// Each is the faster one of two ways of straight moves between the vertices of the robot's lattice, its
-/// start and the goal: that of a backward search from the goal (CostToGo), which all ways to this goal share
-/// and whose estimates do not depend on the others; and that of the planner's own search (AaSipp) with these
-/// estimates, a heuristic weight of 1 and no accepted suboptimality, which knows more headings.
+/// A way consists of straight moves between the vertices of the robot's lattice, its start and the goal. The
+/// result is the faster of two ways:
+///
+/// - The way of a backward search from the goal (CostToGo). All ways to this goal share the search, and its
+///   estimates do not depend on the others.
+/// - The way of the planner's own search (AaSipp) with these estimates, a heuristic weight of 1 and no
+///   accepted suboptimality. This search knows more headings.
 std::optional<TravelAnswers> travel_times(const Problem& problem, const PlanOptions& options,
                                           const TravelQuestions& questions, const StopCondition& stop,
                                           Executor& executor, const std::function<bool()>& go_on);
 
-/// Goals that one robot is to visit in their order, after those that it has.
+/// Goals that one robot is to visit in their order, after its own goals.
 struct Task {
   std::vector<Goal> goals;          // at least one
   std::vector<std::size_t> robots;  // that may do it, ascending
 };
 
 /// Returns when robots would rest in the last pose of tasks, by task, then as in Task::robots: seconds, or
-/// kForever where there is no way. Each robot is alone, visits the goals that are left to it after its
-/// committed actions, and then those of the task. Services and `not_before` count; ways take their
-/// travel_times(), so a goal without a heading is left in any heading. None if `stop` is met first, or if
-/// `go_on` ends it, see travel_times().
+/// kForever if there is no way. Each robot is alone. After its committed actions, it visits the goals that
+/// are left to it, and then the goals of the task.
+///
+/// Services and `not_before` count. Ways take their travel_times(), so a robot leaves a goal without a
+/// heading in any heading. None if `stop` is met first, or if `go_on` ends it, see travel_times().
 std::optional<std::vector<std::vector<double>>> arrivals(const Problem& problem, const PlanOptions& options,
                                                          const std::vector<Task>& tasks,
                                                          const StopCondition& stop, Executor& executor,
