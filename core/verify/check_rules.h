@@ -1,6 +1,6 @@
 #pragma once
 
-// The input of a check, which is the fleet, the rules and the tolerances; and the violations that it finds.
+// The input of a check (the fleet, the rules and the tolerances), and the violations that it finds.
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@
 
 namespace fleetplan::core {
 
-/// How much the plan of one robot may deviate. Two disks may overlap by the larger one of their tolerances.
+/// How much the plan of one robot may deviate. Two disks may overlap by the larger of their tolerances.
 struct Tolerance {
   double metres = 0.0;
   double seconds = 0.0;
@@ -27,12 +27,12 @@ struct Tolerance {
   static Tolerance of_all(double tolerance) { return {tolerance, tolerance, tolerance}; }
 };
 
-/// No tolerance in metres exceeds this, whatever a request contains; also the default of POST /v1/validate.
+/// No tolerance in metres exceeds this, whatever a request contains. Also the default of POST /v1/validate.
 inline constexpr double kMaxTolerance = 1e-6;
 
-/// Returns by robot the tolerances for a plan of the planner: contact, and what doubles lose in coordinates
-/// of the map's size and, at the robot's own speed, in times as long as its own plan's. For robots with
-/// actions of the request, kMaxTolerance.
+/// Returns, by robot, the tolerances for a plan of the planner. They allow for contact and for the rounding
+/// of doubles. Rounding grows with coordinates (the map's size) and times (the length of the robot's plan, at
+/// its own speed). For robots with actions from the request, kMaxTolerance.
 std::vector<Tolerance> plan_tolerances(const OccupancyGrid& grid, const std::vector<Robot>& robots,
                                        const std::vector<RobotPlan>& plans);
 
@@ -47,32 +47,32 @@ struct CheckedFleet {
 /// Whether a plan may end with goals left, because it ends at or after the horizon.
 enum class GoalsLeft : std::uint8_t { none, allowed };
 
-/// The rules beside those that hold for all plans. The default is the plainest check.
+/// The options of a check. Rules that hold for every plan need no option. The default is the simplest check.
 struct CheckRules {
   std::vector<Tolerance> tolerances;  // by robot
-  /// Metres added to all radii, for robots against robots and walls, except while they execute commitments.
+  /// Metres added to all radii, against robots and walls, except while robots execute commitments.
   double inflation = 0.0;
   double interval_margin = 0.0;   // seconds, see PlanOptions
   double wait_before_move = 0.0;  // seconds: every translation follows a stand-still of this duration
   /// Metres by which robots may overlap each other or a wall at their start, inflation included.
   double start_overlap = 0.0;
-  /// Metres by which robots may overlap a wall at their last goal, inflation included, and in their
-  /// commitment; so at their start, too.
+  /// Metres by which robots may overlap a wall at their last goal and in their commitment, inflation
+  /// included. So the same overlap is allowed at their start.
   double goal_overlap = 0.0;
   /// Seconds: a plan that ends at this time or later may end anywhere, with goals left. nullopt: all plans
   /// lead to the goal.
   std::optional<double> horizon = {};
   /// Committed actions must be repeated to the last digit. Otherwise the tolerances apply.
   bool exact_commitments = false;
-  /// Unavoidable collisions that are allowed: of exactly the pair of each collision, during the one
-  /// uninterrupted overlap that contains UnavoidableCollision::t (of the bare disks; contact counts).
+  /// Unavoidable collisions that are allowed. Each exempts exactly its pair, during the one uninterrupted
+  /// overlap that contains UnavoidableCollision::t. The overlap is of the bare disks, and contact counts.
   std::vector<UnavoidableCollision> exempt = {};
 
   /// Metres by which robots may overlap at their start, by both options.
   double overlap_at_start() const { return std::max(start_overlap, goal_overlap); }
 };
 
-/// The maximum number of overlaps of robots in a report. Many robots in one place have millions of them.
+/// The maximum number of overlaps of robots in a report. Many robots in one place have millions of overlaps.
 inline constexpr std::size_t kMaxCollisions = 10'000;
 
 /// The maximum number of violations in a report. Every action may have several.
@@ -82,36 +82,38 @@ inline constexpr std::size_t kMaxViolations = 10'000;
 ///
 /// The kinds, and what `distance` and `required` are:
 ///
-/// - robot_collision: two disks overlap; one violation for each uninterrupted overlap. The distance of the
+/// - robot_collision: two disks overlap. One violation for each uninterrupted overlap. The distance of the
 ///   centres, and the sum of the radii.
-/// - obstacle_collision: a disk overlaps a blocked cell or leaves the map; one violation for each action, or
-///   one for consecutive actions through which the overlap continues. The distance from the centre to the
+/// - obstacle_collision: a disk overlaps a blocked cell or leaves the map. One violation for each action, or
+///   for consecutive actions through which the overlap continues. The distance from the centre to the
 ///   obstacle (0: inside), and the radius.
 /// - discontinuity: a gap in time or position, an action that contradicts its type, or a cost other than the
 ///   last t_end. The gap or jump, and 0; or a time, and the required time. Also a number that is not finite
-///   or beyond 1e30: then the robot is not checked any further.
-/// - speed: faster than the robot. The speed, and the robot's; or for an action without duration the
+///   or beyond 1e30; then the robot is not checked any further.
+/// - speed: faster than the robot. The speed, and the robot's speed. For an action without duration, the
 ///   duration, and the shortest possible one. Also a translation that leads off the line of its heading
 ///   (forwards or backwards): by how many metres, and 0.
-/// - profile: a robot whose acceleration is limited has no profile of speed, or one that it cannot follow or
-///   that does not lead from one pose to the other. A speed, and the required one; or the length (or angle)
-///   that the profile covers, and that of the action; or a duration, and the shortest possible one.
-/// - wrong_start, wrong_goal: the distance of the first or the resting pose from the required one, and 0.
+/// - profile: a robot with limited acceleration has no profile of speed, or a wrong one: it cannot follow it,
+///   or it does not lead from one pose to the other. A speed, and the required speed; or the length (or
+///   angle) that the profile covers, and the length of the action; or a duration, and the shortest possible
+///   one.
+/// - wrong_start, wrong_goal: the distance of the first or the resting pose from the required pose, and 0.
 ///   Parked robots must rest at their start or committed end, in any heading. A robot without a plan is
 ///   unplanned, which is allowed.
-/// - wrong_visit: a goal that is not served in its order, in time and for its service, or a visit that a plan
-///   or the `goal` of a wait claims but that does not take place. A time, and the required time; or how far
-///   the robot rests from the goal, and 0.
-/// - committed_changed: a plan that does not begin with the committed actions. By how much the first number
-///   that differs does, and 0; or the number of actions, and of committed ones.
-/// - margin: a robot passes where another one is up to the interval margin earlier or later. The distance of
-///   the centres, and the sum of the radii.
-/// - moving_obstacle: a disk overlaps a moving obstacle; one violation for each uninterrupted overlap. The
+/// - wrong_visit: a goal is not served in its order, in time and for its service. Or a plan, or the `goal` of
+///   a wait, claims a visit that does not take place. A time, and the required time; or how far the robot
+///   rests from the goal, and 0.
+/// - committed_changed: a plan does not begin with the committed actions. By how much the first different
+///   number differs, and 0; or the number of actions, and of committed actions.
+/// - margin: a robot passes a place where another robot is up to the interval margin earlier or later. The
 ///   distance of the centres, and the sum of the radii.
-/// - zone: the rule of a zone is broken. Blocked: a disk overlaps it; one violation for each uninterrupted
-///   overlap: the distance from the centre to the zone (0: inside), and the radius. Speed and one-way: one
-///   violation for each action that has the centre deeper inside than the tolerance: its speed, and the
-///   greatest allowed one; or the angle between its direction and the heading, and the greatest one.
+/// - moving_obstacle: a disk overlaps a moving obstacle. One violation for each uninterrupted overlap. The
+///   distance of the centres, and the sum of the radii.
+/// - zone, blocked: a disk overlaps the zone. One violation for each uninterrupted overlap. The distance from
+///   the centre to the zone (0: inside), and the radius.
+/// - zone, speed and one-way: the rule of the zone is broken. One violation for each action whose centre is
+///   deeper inside than the tolerance. Its speed, and the greatest allowed speed; or the angle between its
+///   direction and the heading, and the greatest allowed angle.
 struct Violation {
   enum class Kind {
     robot_collision,
@@ -138,14 +140,14 @@ struct Violation {
   std::optional<std::size_t> zone = {};      // zone: index of the zone
 };
 
-/// Violations, of which the first kMaxViolations by time, then kind, then robots are kept, and all counted.
+/// Violations. The first kMaxViolations by time, then kind, then robots, are kept. All are counted.
 class ViolationList {
  public:
   void add(Violation violation);
   void add(ViolationList more);
 
   std::size_t total() const { return total_; }
-  /// Returns the violations that are kept, in order, and leaves the list empty.
+  /// Returns the violations that are kept, in order, and empties the list.
   std::vector<Violation> take();
 
  private:

@@ -1,8 +1,8 @@
 #pragma once
 
-// How robots execute their plans, valid or not: where each one is at every time from 0 on, and when its
-// motion becomes the planner's own. A robot whose radius changes is one disk after the other. Obstacles move
-// in the same way.
+// How robots execute their plans, valid or not: where each robot is at every time from 0 on, and when its
+// motion becomes the planner's own. A robot whose radius changes is a sequence of disks. Obstacles move in
+// the same way.
 
 #include <cstddef>
 #include <limits>
@@ -15,25 +15,25 @@
 
 namespace fleetplan::core {
 
-/// A time interval in which a robot's centre moves straight at constant acceleration, mostly 0, or stands.
+/// A time interval in which a robot's centre stands, or moves straight at constant acceleration, usually 0.
 /// Map frame, metres, seconds.
 struct Leg {
   double t_begin = 0.0;
   double t_end = 0.0;  // infinity for the final rest; t_begin for a leg that takes no time
   Position from{0.0, 0.0};
   Position to{0.0, 0.0};
-  /// Half the acceleration times the square of the duration. After a share f of the time, the centre is
-  /// f (1 - f) bend behind where it would be at constant speed.
+  /// Half the acceleration times the square of the duration. At a share f of the time, the centre is f (1 -
+  /// f) bend behind its position at constant speed.
   Position bend{0.0, 0.0};
 };
 
 /// Returns the position of the centre at `t`: exactly `from` up to t_begin, exactly `to` from t_end on.
 Position position_at(const Leg& leg, double t);
 
-/// Returns the part of a leg from `begin` to `end`, which are within it; both may be the same.
+/// Returns the part of a leg from `begin` to `end`. Both are within the leg, and may be the same.
 Leg part_of(const Leg& leg, double begin, double end);
 
-/// What matters about a robot while its load does not change, by the checker's own reading of the request.
+/// The properties of a robot that a load changes, by the checker's own reading of the request.
 struct CarriedLoad {
   double radius = 0.0;               // metres
   double linear_speed = 0.0;         // metres per second
@@ -42,9 +42,10 @@ struct CarriedLoad {
 };
 
 /// The loads of a robot that executes a plan (null: its commitment). Each goal is served as early as
-/// possible, by an uninterrupted rest in its pose after the goals before it. The last one is served by the
-/// rest at the end of the plan, after the commitment; a robot without a plan does not serve it. One that has
-/// neither a plan nor a commitment serves none.
+/// possible, by an uninterrupted rest in its pose after the goals before it.
+///
+/// The rest at the end of the plan, after the commitment, serves the last goal. A robot without a plan does
+/// not serve it. A robot with neither a plan nor a commitment serves no goal.
 class CarriedLoads {
  public:
   /// A load that is carried from a time on, seconds.
@@ -65,18 +66,23 @@ class CarriedLoads {
   double seconds_;  // tolerance
 };
 
-/// Returns the legs of a robot from t = 0 to infinity, in order, each beginning when the previous one ends.
-/// Without a plan (null) the robot executes its committed actions, unless it is invalid. Without actions it
-/// stays at its start; otherwise it rests where its last action ends. Invalid plans are executed as follows:
-/// in a gap between actions the robot stands; of an action that begins before the previous one has ended (or
-/// before 0), the overlapping part is omitted; an action that ends before it begins takes no time. Every
-/// number of the plan (and of the committed actions) is finite.
+/// Returns the legs of a robot from t = 0 to infinity, in order. Each begins when the previous leg ends.
+/// Without a plan (null), the robot executes its committed actions, unless it is invalid. Without actions, it
+/// stays at its start; otherwise, it rests where its last action ends.
+///
+/// Invalid plans are executed as follows:
+///
+/// - In a gap between actions, the robot stands.
+/// - If an action begins before the previous action has ended (or before 0), the overlapping part is omitted.
+/// - An action that ends before it begins takes no time.
+///
+/// Every number of the plan (and of the committed actions) must be finite.
 std::vector<Leg> execute(const Robot& robot, const RobotPlan* plan, const CarriedLoads& loads);
 /// Executes with the loads of a robot whose times may be rounded by up to kMaxTolerance.
 std::vector<Leg> execute(const Robot& robot, const RobotPlan* plan);
 
 /// Returns the legs of an obstacle from when it appears until it vanishes, or to infinity. An obstacle that
-/// appears for an instant only has a leg that takes no time.
+/// appears only for an instant has a leg that takes no time.
 std::vector<Leg> legs_of(const MovingObstacle& obstacle);
 
 /// When the motion of a robot passes from its commitment to the planner, seconds.
@@ -86,14 +92,14 @@ struct Handover {
   double leaves = std::numeric_limits<double>::infinity();
   double first_move_ends = std::numeric_limits<double>::infinity();
 
-  /// Whether a leg that ends at `t_end` belongs to the commitment; and whether one that begins at `t_begin`
-  /// follows the stay at the end of it.
+  /// Whether a leg that ends at `t_end` belongs to the commitment; and whether a leg that begins at `t_begin`
+  /// follows the stay at the commitment's end.
   bool commits(double t_end) const { return t_end <= committed_until; }
   bool plans(double t_begin) const { return t_begin >= leaves; }
 };
 
 /// Returns when the motion of a robot passes to the planner. `plan` is null for a robot without a plan. Every
-/// number is finite.
+/// number must be finite.
 Handover handover_of(const Robot& robot, const RobotPlan* plan);
 
 /// A disk of constant radius on its way.
@@ -102,13 +108,13 @@ struct SizedLegs {
   std::vector<Leg> legs;
 };
 
-/// Returns the disks of a robot, each from the end of the one before, the first from t = 0, the last to
-/// infinity. `legs` are the result of execute() with these loads.
+/// Returns the disks of a robot, in order: the first from t = 0, each from the end of the disk before, the
+/// last to infinity. `legs` are the result of execute() with these loads.
 std::vector<SizedLegs> sized_legs_of(const CarriedLoads& loads, std::vector<Leg> legs);
 
-/// Robots that execute their plans. All lists are in the same order; a position in them is not the index of
-/// the robot. A robot whose radius changes has several positions, one after the other, for one time each (see
-/// sized_legs_of).
+/// Robots that execute their plans. All lists are in the same order. A position in them is not the index of
+/// the robot: a robot whose radius changes has several positions, one after the other, each for its own time
+/// (see sized_legs_of).
 struct ExecutedFleet {
   std::vector<std::size_t> robots;  // indices of the robots, ascending
   std::vector<double> radii;        // metres, bare

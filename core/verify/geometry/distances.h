@@ -1,6 +1,7 @@
 #pragma once
 
-// The distance of a segment from rectangles, polygons and the obstacles of a map, and its parts inside them.
+// The distance of a segment from rectangles, polygons and the obstacles of a map, and the parts of the
+// segment inside them.
 
 #include <cstddef>
 #include <cstdint>
@@ -26,7 +27,7 @@ struct Stretch {
   bool empty() const { return first > last; }
 };
 
-/// The smallest distance, and the first point of the segment that has it.
+/// The smallest distance, and the first point of the segment with this distance.
 struct NearestPoint {
   double distance = 0.0;  // metres, 0 inside
   double fraction = 0.0;  // share of the segment, 0 to 1
@@ -39,20 +40,21 @@ Stretch stretch_inside(const Position& from, const Position& to, const Rectangle
 /// The error is a few ulp of the largest coordinate.
 NearestPoint nearest_to_rectangle(const Position& from, const Position& to, const Rectangle& rectangle);
 
-/// Whether a point is inside of a simple polygon, by its winding number. Either answer is possible within
-/// rounding of the border.
+/// Whether a point is inside a simple polygon, by its winding number. Within rounding of the border, either
+/// answer is possible.
 bool is_inside(const std::vector<Position>& corners, const Position& point);
 
 /// Whether a point is inside and farther than `depth` metres from the border.
 bool is_deep_inside(const std::vector<Position>& corners, const Position& point, double depth);
 
 /// Returns the first point of a segment (or a point, if `from` == `to`) that is nearest to a simple polygon
-/// with its inside, and their distance; if the segment enters the polygon, the first point inside.
+/// with its inside, and their distance. If the segment enters the polygon, this is the first point inside.
 NearestPoint nearest_to_polygon(const Position& from, const Position& to,
                                 const std::vector<Position>& corners);
 
-/// Returns the stretches of a segment, of length > 0, whose quarter points are inside of the polygon and not
-/// all within `depth` metres of its border; ascending. Returns only the first ones once `stop` is met.
+/// Returns the stretches of a segment, of length > 0, inside the polygon, ascending. The quarter points of a
+/// stretch are inside, and not all within `depth` metres of the border. Once `stop` is met, returns only the
+/// first stretches.
 std::vector<Stretch> stretches_inside(const Position& from, const Position& to,
                                       const std::vector<Position>& corners, double depth,
                                       const StopCondition& stop);
@@ -66,14 +68,16 @@ struct NearestObstacle {
 /// All obstacles: the blocked cells of a map, and everything outside it.
 class ObstacleField {
  public:
-  /// Reads the map once, in time linear in its cells. `grid` outlives this object.
+  /// Reads the map once, in time linear in its cells. `grid` must outlive this object.
   explicit ObstacleField(const OccupancyGrid& grid);
   explicit ObstacleField(OccupancyGrid&&) = delete;
 
   /// Returns the first point of the segment from `from` to `to` (possibly equal) that is nearest to an
-  /// obstacle, if that is nearer than `reach` metres. The error is a few ulp of the largest coordinate. Work
-  /// grows with the number of blocked cells within `reach` of the part of the segment inside the map, not
-  /// with its length.
+  /// obstacle. None unless it is nearer than `reach` metres. The error is a few ulp of the largest
+  /// coordinate.
+  ///
+  /// Work grows with the number of blocked cells within `reach` of the part of the segment inside the map,
+  /// not with the segment's length.
   std::optional<NearestObstacle> nearest(const Position& from, const Position& to, double reach) const;
 
  private:

@@ -1,7 +1,7 @@
 #pragma once
 
-// The motion of a point relative to another one, both straight at constant acceleration; and two bodies leg
-// by leg, at equal and at slightly different times.
+// The motion of a point relative to another point, both straight at constant acceleration. Also two bodies
+// leg by leg, at equal and at slightly different times.
 
 #include <algorithm>
 #include <limits>
@@ -14,12 +14,12 @@
 
 namespace fleetplan::core {
 
-/// The displacement from one point to another: linear in time, or a parabola if it bends (see Leg::bend). If
-/// neither moves, or both have the same velocity, from == to, and t_end may be infinite.
+/// The displacement from one point to another. It is linear in time, or a parabola if it bends (see
+/// Leg::bend). If neither point moves, or both have the same velocity, from == to, and t_end may be infinite.
 ///
 /// The squared distance of a parabola is of degree four in time. It is monotone between the roots of its
-/// derivative, a cubic, which is monotone between the roots of its own derivative; all roots are bracketed
-/// so.
+/// derivative, a cubic. The cubic is monotone between the roots of its own derivative. All roots are
+/// bracketed in this way.
 struct RelativeMotion {
   double t_begin = 0.0;
   double t_end = 0.0;
@@ -30,7 +30,7 @@ struct RelativeMotion {
   bool bends() const { return bend != Position(0.0, 0.0); }
 };
 
-/// The time and distance of the closest approach; the first such time if there are several.
+/// The time and distance of the closest approach. If there are several such times, the first one.
 struct ClosestMoment {
   double t = 0.0;
   double distance = 0.0;  // metres
@@ -44,14 +44,15 @@ struct TimeSpan {
 /// Returns the least squared distance, m^2. The error of the distance is a few ulp of the larger coordinate.
 double least_squared_distance(const RelativeMotion& motion);
 
-/// Returns the moment of least distance, as exact as `least_squared_distance`. Where the points come nearer
-/// by at most kSamePosition, which may be rounding, it is the beginning.
+/// Returns the moment of least distance, as exact as `least_squared_distance`. If the points come nearer by
+/// at most kSamePosition, which may be rounding, it is the beginning.
 ClosestMoment closest_moment(const RelativeMotion& motion);
 
-/// Returns the open time span in which the distance is less than `distance`; none if it never is. If the span
-/// begins or ends inside the motion, its error is a few ulp of the coordinates divided by the speed, or the
-/// square root of that where the approach is tangential; at an end of the motion it is exact. A parabola may
-/// be farther away in between.
+/// Returns the open time span in which the distance is less than `distance`; none if it never is. A parabola
+/// may be farther away in between.
+///
+/// An end of the span at an end of the motion is exact. Inside the motion, its error is a few ulp of the
+/// coordinates divided by the speed. Where the approach is tangential, it is the square root of this.
 std::optional<TimeSpan> span_closer_than(const RelativeMotion& motion, double distance);
 
 /// Returns the first leg that does not end before `t`.
@@ -68,8 +69,8 @@ inline Position bend_between(const Leg& leg, double begin, double end) {
 }
 
 /// Calls `visit(const RelativeMotion&)` for each piece of time within the closed span in which both bodies
-/// move straight, in order of time, until it returns false. The motion is that of `b` relative to `a`. Legs
-/// of `b` that take no time count only if `counts_instants`.
+/// move straight. The pieces come in order of time, until it returns false. The motion is relative: `b` as
+/// seen from `a`. Legs of `b` that take no time count only if `counts_instants`.
 template <typename Visit>
 void visit_common_pieces(std::span<const Leg> a, std::span<const Leg> b, const TimeSpan& span,
                          bool counts_instants, Visit visit) {
@@ -92,7 +93,7 @@ void visit_common_pieces(std::span<const Leg> a, std::span<const Leg> b, const T
   }
 }
 
-/// Visits the common pieces of all legs of two bodies. A leg that takes no time counts if it is all there is
+/// Visits the common pieces of all legs of two bodies. A leg that takes no time counts if it is the only leg
 /// of `b`.
 template <typename Visit>
 void visit_common_pieces(const std::vector<Leg>& a, const std::vector<Leg>& b, const TimeSpan& span,
@@ -103,26 +104,28 @@ void visit_common_pieces(const std::vector<Leg>& a, const std::vector<Leg>& b, c
   visit_common_pieces(present(a), present(b), span, b.size() == 1, visit);
 }
 
-/// Returns the least distance between the centres of two bodies within a time span, metres; infinity if they
+/// Returns the least distance between the centres of two bodies within a time span, metres. Infinity if they
 /// are never there together.
 double least_distance(const std::vector<Leg>& a, const std::vector<Leg>& b, const TimeSpan& span);
 
-/// Returns the uninterrupted time around `t` in which two bodies are nearer to each other than `distance`;
-/// none if they are not at `t`.
+/// Returns the uninterrupted time around `t` in which two bodies are nearer to each other than `distance`.
+/// None if they are not nearer at `t`.
 std::optional<TimeSpan> time_together(const std::vector<Leg>& a, const std::vector<Leg>& b, double distance,
                                       double t);
 
-/// The pair of times at which two bodies are nearest to each other, and their distance then.
+/// The two times at which two bodies are nearest to each other, and their distance then.
 struct ShiftedMoment {
   double distance = 0.0;  // metres; infinity if there is no such pair of times
   double t_first = 0.0;
   double t_second = 0.0;
 };
 
-/// Returns the least distance of a position of one leg at a time within `first`, and one of the other leg at
-/// a time within `second`, if these times differ by no more than `margin`. All times are finite. Exact up to
-/// rounding. Of legs that bend: up to kSamePosition, or up to a hundredth of `enough` (metres) if it is less
-/// than that; infinity or any other number that is not less if it is not.
+/// Returns the least distance between a position of leg `a` at a time within `first` and a position of leg
+/// `b` at a time within `second`. The two times may differ by up to `margin`. All times are finite.
+///
+/// Exact up to rounding for straight legs. For legs that bend, exact up to kSamePosition, or up to a
+/// hundredth of `enough` (metres) if the distance is less than `enough`. Otherwise, returns infinity or any
+/// other number that is not less than `enough`.
 ShiftedMoment least_shifted_distance(const Leg& a, const TimeSpan& first, const Leg& b,
                                      const TimeSpan& second, double margin,
                                      double enough = std::numeric_limits<double>::infinity());

@@ -1,7 +1,7 @@
 #pragma once
 
-// The smallest gap between robots over all time, and where they overlap; found with the boxes of moving disks
-// in one window of time after the other.
+// The smallest gap between robots over all time, and where robots overlap. Found with the boxes of moving
+// disks, in one window of time after the other.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,9 +18,9 @@
 
 namespace fleetplan::core {
 
-/// Returns the boundaries of time windows in which each robot has about half a leg: ascending, the first is
+/// Returns the boundaries of time windows in which each robot has about half a leg, ascending. The first is
 /// 0, the last the time at which all robots have come to rest. Only 0 if no robot ever moves. `others` move
-/// among the robots, and have about half a leg in each window as well.
+/// among the robots, and also have about half a leg in each window.
 std::vector<double> time_windows(const std::vector<std::vector<Leg>>& legs_by_robot,
                                  const std::vector<std::vector<Leg>>& others = {});
 
@@ -37,12 +37,12 @@ struct MovingBox {
 
 class MovingBoxes {
  public:
-  /// The boxes of bodies with these `legs`. `reach` by body: how far its boxes are enlarged, metres. A slack
-  /// that is far more than the rounding of boxes, and far less than the radius of a robot, is added.
+  /// The boxes of bodies with these `legs`. `reach`: by body, how far its boxes are enlarged, metres. A slack
+  /// is added that is far more than the rounding of boxes, and far less than the radius of a robot.
   MovingBoxes(const std::vector<std::vector<Leg>>& legs, std::vector<double> reach);
 
-  /// Returns the boxes of the bodies that are present within a closed window, by their left edges. The
-  /// windows of later calls begin no earlier.
+  /// Returns the boxes of the bodies that are present within a closed window, by their left edges. Later
+  /// calls must not have earlier windows.
   std::vector<MovingBox> in(const TimeSpan& window);
 
   /// Returns the legs of a body that do not end before the last window.
@@ -67,11 +67,11 @@ struct Overlap {
 /// Collects the overlaps of pairs, piece of time by piece of time.
 class OverlapList {
  public:
-  /// A list of at most `max` overlaps; further ones are left out.
+  /// A list of at most `max` overlaps. Further overlaps are left out.
   explicit OverlapList(std::size_t max) : max_(max) {}
 
   /// Adds the time in which the two are nearer than `allowed` metres, if there is any. The pieces of one pair
-  /// come in the order of time; an overlap that goes on from one piece to the next is one.
+  /// come in the order of time. An overlap that goes on from one piece to the next is one overlap.
   void add(std::size_t first, std::size_t second, const RelativeMotion& motion, double allowed);
 
   std::vector<Overlap> take();
@@ -90,18 +90,19 @@ struct FleetClearance {
 /// The radii of robots, metres.
 struct DiskRadii {
   const std::vector<double>& body;
-  const std::vector<double>& kept_apart;  // radii that are kept apart, each >= that of the body
+  const std::vector<double>& kept_apart;  // the radii that are kept apart, each >= the radius of the body
 };
 
 /// Whether an overlap of two robots that rest for ever is left out of the list.
 using LeftOutAtRest = std::function<bool(const Overlap&)>;
 
 /// Returns the smallest gap and the overlaps of a fleet, exact up to rounding: a few ulp of the coordinates.
-/// `legs_by_robot` are results of execute(); `radii` and `tolerances` (metres) are in the same order, and two
-/// robots may overlap by the larger one of their tolerances. At most `max_overlaps` are listed: those that
-/// are missing begin later than those listed, or slightly earlier. `least` always includes all pairs and all
-/// time, and does not depend on the order of the robots. Overlaps for which `left_out` (which may be empty)
-/// holds are not listed. Returns none if `stop` is met first.
+/// `legs_by_robot` are results of execute(); `radii` and `tolerances` (metres) are in the same order. Two
+/// robots may overlap by the larger of their tolerances.
+///
+/// At most `max_overlaps` are listed. Missing overlaps begin later than the listed ones, or slightly earlier.
+/// Overlaps for which `left_out` (which may be empty) holds are not listed. `least` always includes all pairs
+/// and all time, and does not depend on the order of the robots. Returns none if `stop` is met first.
 std::optional<FleetClearance> fleet_clearance(const std::vector<std::vector<Leg>>& legs_by_robot,
                                               const DiskRadii& radii, const std::vector<double>& tolerances,
                                               std::size_t max_overlaps, const StopCondition& stop,

@@ -1,8 +1,8 @@
 #pragma once
 
-// Sweeps through the time of a fleet: robots that overlap moving obstacles, and robots that pass the same
-// place with less than the interval margin between them. Some pairs may, at the times of their unavoidable
-// collisions.
+// Sweeps through the time of a fleet. They find robots that overlap moving obstacles, and robots that pass
+// the same place with less than the interval margin between them. Some pairs may do so, at the times of their
+// unavoidable collisions.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,9 +20,14 @@
 namespace fleetplan::core {
 
 /// The times at which pairs may collide, see CheckRules::exempt. Unavoidable collisions count only if they
-/// begin while both bodies do what is certain: obstacles move, robots execute their commitments, and robots
-/// without a plan or a goal stay for ever where these end. A robot with kMaxUnavoidableOfRobot collisions
-/// has no more listed, so all that it certainly does is exempt from the last one on.
+/// begin while both bodies are in certain motion:
+///
+/// - obstacles that move,
+/// - robots that execute their commitments,
+/// - robots without a plan or a goal, which stay for ever at the end of these.
+///
+/// If a robot has kMaxUnavoidableOfRobot collisions, no more are listed. So all its certain motion is exempt
+/// from the last one on.
 class Exemptions {
  public:
   /// Finds the times. `obstacles` are the legs of the moving obstacles, `obstacle_radii` their radii. All
@@ -31,7 +36,7 @@ class Exemptions {
              double inflation, const std::vector<std::vector<Leg>>& obstacles,
              const std::vector<double>& obstacle_radii, const StopCondition& stop);
 
-  /// The times at which two robots, by their positions in the fleet in any order, may collide.
+  /// The times at which two robots may collide. They are given by their positions in the fleet, in any order.
   const std::vector<TimeSpan>& of_robots(std::size_t one, std::size_t other) const;
   const std::vector<TimeSpan>& with_obstacle(std::size_t robot, std::size_t obstacle) const;
 
@@ -46,7 +51,7 @@ class Exemptions {
  private:
   using Spans = std::unordered_map<std::uint64_t, std::vector<TimeSpan>>;
 
-  /// The end of what a robot certainly does, and the time from which on its collisions are exempt.
+  /// The end of a robot's certain motion, and the time from which on its collisions are exempt.
   struct Certain {
     double until = 0.0;
     double exempt_from = 0.0;
@@ -83,12 +88,12 @@ struct ShiftedOverlap {
   double distance = 0.0;  // metres, between the centres
 };
 
-/// Returns the times of a pair that the margin leaves out: no time of either robot lies in one of them.
+/// Returns the times of a pair that the margin leaves out: no time of either robot lies in any of them.
 using TimesLeftOut = std::function<std::vector<TimeSpan>(std::size_t first, std::size_t second)>;
 
 /// Returns the deepest overlap within the margin of each pair, in the order of the pairs, at most
-/// `max_overlaps`. Times differ by `margin` or less. Left out are times at which both robots execute
-/// commitments or one of them stays at the end of its commitment before it first leaves. All radii are
+/// `max_overlaps`. Times differ by `margin` or less. Times are left out at which both robots execute
+/// commitments, or one of them stays at the end of its commitment before it first leaves. All radii are
 /// enlarged by `inflation` and the vicinity. Returns none if `stop` is met first.
 std::optional<std::vector<ShiftedOverlap>> overlaps_within_margin(const ExecutedFleet& fleet, double margin,
                                                                   double inflation,
@@ -97,9 +102,9 @@ std::optional<std::vector<ShiftedOverlap>> overlaps_within_margin(const Executed
                                                                   const StopCondition& stop);
 
 /// Returns the overlaps of robots (`first`, a position in the fleet) and obstacles (`second`) by more than
-/// the tolerance of the robot: one for each uninterrupted overlap, at most `max_overlaps`. The instants at
-/// which an obstacle appears and vanishes count. Times in which all overlaps of a robot are exempt are left
-/// out. Exact up to rounding. Returns none if `stop` is met first.
+/// the tolerance of the robot. There is one for each uninterrupted overlap, at most `max_overlaps`. The
+/// instants at which an obstacle appears and vanishes count. Times in which all overlaps of a robot are
+/// exempt are left out. Exact up to rounding. Returns none if `stop` is met first.
 std::optional<std::vector<Overlap>> overlaps_with_obstacles(const ExecutedFleet& fleet,
                                                             const std::vector<std::vector<Leg>>& obstacles,
                                                             const std::vector<double>& obstacle_radii,
