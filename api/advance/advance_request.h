@@ -1,6 +1,6 @@
 #pragma once
 
-// The request of POST /v1/advance and its answer, the request of a later moment.
+// The request of POST /v1/advance and its answer, which is the request of a later moment.
 
 #include <memory>
 #include <optional>
@@ -18,12 +18,12 @@
 
 namespace fleetplan::api {
 
-/// What the answer repeats of the goals of a robot, and of those that replace them.
+/// What the answer repeats of the goals of a robot, and of the goals that replace them.
 struct RepeatedGoals {
   std::vector<GoalTexts> texts;            // see ParsedGoals
-  std::vector<GoalTexts> others;           // of those that replace them
+  std::vector<GoalTexts> others;           // texts of the goals that replace them
   std::vector<core::OpenGoal> open;        // as its plan has settled them
-  std::vector<core::OpenGoal> other_open;  // of those that replace them
+  std::vector<core::OpenGoal> other_open;  // open goals among the goals that replace them
   bool returns = false;                    // it may come back to any pose of its last goal, if that is open
 };
 
@@ -40,14 +40,18 @@ struct AdvanceRequest {
 std::optional<AdvanceRequest> parse_advance_request(const JsonReader& root, const Limits& limits,
                                                     core::Work& work);
 
-/// What the next request is judged by, as long as the request and `work` are there. Its map is taken if it is
-/// needed. `maps`: those of earlier requests; may be null.
+/// Returns the facts by which the next request is judged. The request and `work` must outlive them. The map
+/// is only fetched if it is needed. `maps`: the maps of earlier requests; may be null.
 core::Judgement judgement_of(AdvanceRequest& request, core::MapCache* maps, core::Work& work);
 
-/// Returns the request of the moment: that of the body with the starts, goals, committed and previous actions
-/// of these robots, what is left of its obstacles, and the options that it needs where they are; everything
-/// else is copied. Then `progress`, and `unavoidable` with `unavoidable_total` if robots overlap or cannot
-/// stop in time. The text ends anywhere once the work is met.
+/// Returns the request of the moment. It takes these from its arguments:
+///
+/// - the starts, goals, committed and previous actions of the robots,
+/// - what is left of the obstacles,
+/// - and the options that the positions of the robots require.
+///
+/// Everything else is copied from the body. Then `progress` follows, and, if robots overlap or cannot stop in
+/// time, `unavoidable` with `unavoidable_total`. If the work is met, the text is incomplete.
 std::string write_advanced(const AdvanceRequest& request, const std::vector<core::Robot>& robots,
                            const core::Circumstances& circumstances, core::Work& work);
 

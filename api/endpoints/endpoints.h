@@ -14,7 +14,7 @@ namespace fleetplan::api {
 
 using core::Planner;
 
-/// POST /v1/plan: parse -> plan -> verify -> write. Never throws for what a client sent; a plan that the
+/// POST /v1/plan: parse -> plan -> verify -> write. Never throws for what a client sent. A plan that the
 /// checker rejects becomes a 500. Reports progress to the context's events.
 Reply plan_endpoint(std::string_view body, const RequestContext& context);
 
@@ -24,8 +24,8 @@ Reply plan_with(const Planner& planner, std::string_view body, const RequestCont
 /// POST /v1/validate: checks plans from any source.
 Reply validate_endpoint(std::string_view body, const RequestContext& context);
 
-/// POST /v1/simulate: executes plans many times with other disturbances. Reports progress to the context's
-/// events.
+/// POST /v1/simulate: executes plans many times with different disturbances. Reports progress to the
+/// context's events.
 Reply simulate_endpoint(std::string_view body, const RequestContext& context);
 
 /// POST /v1/advance: returns the request of a later moment, when robots have executed a part of their plans.
@@ -34,8 +34,8 @@ Reply advance_endpoint(std::string_view body, const RequestContext& context);
 /// POST /v1/dependencies: returns the dependencies of any plan that POST /v1/validate accepts.
 Reply dependencies_endpoint(std::string_view body, const RequestContext& context);
 
-/// POST /v1/retime: returns when robots that execute a plan with dependencies will arrive, and because of
-/// whom.
+/// POST /v1/retime: returns when robots that execute a plan with dependencies will arrive, and which robots
+/// cause delays.
 Reply retime_endpoint(std::string_view body, const RequestContext& context);
 
 /// POST /v1/matrix: returns how long a robot takes between poses, alone on the map.
@@ -44,11 +44,11 @@ Reply matrix_endpoint(std::string_view body, const RequestContext& context);
 /// POST /v1/assign: gives tasks to robots and returns the request with their goals.
 Reply assign_endpoint(std::string_view body, const RequestContext& context);
 
-/// POST /v1/export/vda5050: returns a plan as orders of VDA 5050, a pure function of the body.
+/// POST /v1/export/vda5050: returns a plan as orders of VDA 5050. The answer depends only on the body.
 Reply vda5050_endpoint(std::string_view body, const RequestContext& context);
 
-/// POST /v1/import/vda5050: returns what vehicles report in messages of VDA 5050 as states of robots, for
-/// POST /v1/advance and the next export.
+/// POST /v1/import/vda5050: reads what vehicles report in messages of VDA 5050. Returns it as states of
+/// robots, for POST /v1/advance and the next export.
 Reply import_vda5050_endpoint(std::string_view body, const RequestContext& context);
 
 /// An example request of GET /v1/examples.

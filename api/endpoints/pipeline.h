@@ -1,7 +1,7 @@
 #pragma once
 
-// The steps that endpoints share: bounded work, the turn, the check of plans, and the replies when one of
-// these fails.
+// The steps that endpoints share: bounded work, the turn, the check of plans, and the replies when a step
+// fails.
 
 #include <chrono>
 #include <functional>
@@ -24,10 +24,12 @@
 
 namespace fleetplan::api {
 
-/// Runs an endpoint and returns its reply. All of its work is bounded by the Work that it gets: from the
-/// first byte of the body to the last byte of the answer's text. It is granted `max_plan_memory`; the reply
-/// is 422 `memory_exceeded` if it needs more, and 503 `overloaded` if the process lacks what is granted. The
-/// reply keeps the memory that is still in use, if it is much.
+/// Runs an endpoint and returns its reply. A Work bounds everything from the first byte of the body to the
+/// last byte of the answer's text.
+///
+/// The request may use `max_plan_memory`. If it needs more, the reply is 422 `memory_exceeded`. If the
+/// process lacks the memory that is granted, the reply is 503 `overloaded`. Large memory that is still in use
+/// is kept by the reply.
 Reply bounded_work(const RequestContext& context, const std::function<Reply(core::Work&)>& endpoint);
 
 /// Returns the 422 for a request that needs more memory than it is granted.
@@ -36,34 +38,34 @@ Reply memory_exceeded(const RequestContext& context);
 /// Returns the 503 for a request for which the process has no memory at the moment.
 Reply out_of_memory(const std::string& request_id);
 
-/// Asks for the turn of a request that has been read, and waits for it. Returns whether it came; true at once
-/// without a Turn.
+/// Asks for the turn of a request that has been read, and waits for it. Returns whether it came. Without a
+/// Turn, returns true at once.
 bool take_turn(Turn* turn, const TurnNeed& need, core::Work& work);
 
-/// Lets others have the turn, see Turn::let_others. Returns whether it came back; true at once without a
-/// Turn.
+/// Lets other requests have the turn, see Turn::let_others. Returns whether it came back. Without a Turn,
+/// returns true at once.
 bool share_turn(Turn* turn);
 
 /// Returns the TurnNeed::work of plans that are to be checked or executed.
 double work_of(std::size_t robots, const std::vector<core::RobotPlan>& plans);
 
-/// Returns the reply when a check, a simulation or another computation was stopped before it had an answer.
-/// `what` begins the sentence: "The plans could not be checked"; `fewer` ends it: "poses".
+/// Returns the reply when a computation, such as a check or a simulation, was stopped before it had an
+/// answer. `what` begins the sentence: "The plans could not be checked". `fewer` ends it: "poses".
 Reply unfinished_reply(std::string_view what, std::string_view fewer, std::chrono::nanoseconds budget,
                        const core::StopCondition& stop, const RequestContext& context);
 inline constexpr std::string_view kFewerPlans = "robots or a shorter part of the plans";
 
-/// Waits for the turn of a request whose body has been read and has no fault so far. Returns false if the
-/// answer is not to be made.
+/// Waits for the turn of a request whose body has been read and has no fault so far. Returns false if no
+/// answer should be made.
 using AwaitTurn = std::function<bool()>;
 
-/// Makes the JSON answer to a body from the body's root. Returns none only when it reported faults, when its
-/// work was stopped, or when it got no turn.
+/// Makes the JSON answer to a body from the body's root. Returns none only if it reported faults, if its work
+/// was stopped, or if it got no turn.
 using MakeAnswer =
     std::function<std::optional<std::string>(const JsonReader&, core::Work&, const AwaitTurn&)>;
 
-/// Returns the reply of an endpoint whose answer depends on nothing but the body. `members` are those that
-/// the body's root may have.
+/// Returns the reply of an endpoint whose answer depends only on the body. `members`: the members that the
+/// body's root may have.
 Reply pure_endpoint(std::string_view body, const RequestContext& context,
                     std::span<const std::string_view> members, const MakeAnswer& make);
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// What an endpoint gets of its request beside the body: its limits, its turn to compute, and who receives its
-// progress.
+// What an endpoint gets of its request beside the body: its limits, its turn to compute, and the receiver of
+// its progress.
 
 #include <chrono>
 #include <cstddef>
@@ -32,8 +32,8 @@ struct PlanProgress {
   std::optional<core::SimulationProgress> simulation = {};  // instead of the planner's progress
 };
 
-/// Receives the events while a plan is made or simulated (`text/event-stream`). Called by the planning
-/// thread, which waits meanwhile: an implementation must not wait for a client.
+/// Receives the events while a plan is made or simulated (`text/event-stream`). The planning thread calls it
+/// and waits meanwhile, so an implementation must not wait for a client.
 class PlanEvents {
  public:
   PlanEvents() = default;
@@ -41,14 +41,14 @@ class PlanEvents {
   PlanEvents& operator=(const PlanEvents&) = delete;
   virtual ~PlanEvents() = default;
 
-  /// Called when the request is valid: from now on, every outcome is an event. Called at most once, before
+  /// Called when the request is valid. From now on, every outcome is an event. Called at most once, before
   /// the others.
   virtual void begin(const PlanProgress& progress) = 0;
 
-  /// Called often, with the newest state, which replaces the earlier ones.
+  /// Called often, with the newest state, which replaces earlier states.
   virtual void progress(const PlanProgress& progress) = 0;
 
-  /// Whether incumbents are received at all: otherwise, no answers are written for them.
+  /// Whether incumbents are received at all. If not, no answers are written for them.
   virtual bool wants_incumbents() const { return true; }
 
   /// Called when a better plan was found, with a whole answer as JSON. Its plan has passed the check.
@@ -58,22 +58,21 @@ class PlanEvents {
 /// Returns the data of `event: progress`. `elapsed_ms`: since the last byte of the request.
 std::string write_progress(const PlanProgress& progress, double elapsed_ms);
 
-/// Turns the planner's progress into events, and its better plans into answers: at most one a second, less
-/// often where making one takes long, and none shortly before the final one.
+/// Turns the planner's progress into events, and its better plans into answers. There is at most one answer a
+/// second, fewer if making an answer takes long, and none shortly before the final one.
 class ProgressReporter final : public core::PlanObserver {
  public:
   using Clock = std::chrono::steady_clock;
   using MakeAnswer = std::function<Reply(const core::CheckedPlan&)>;
 
-  /// The least pause after an answer, and the least factor of the pause to the time that making the answer
+  /// The least pause after an answer, and the least ratio of the pause to the time that making the answer
   /// took.
   static constexpr std::chrono::seconds kLeastPause{1};
   static constexpr int kLeastPauseFactor = 10;
   /// No answer is made in this last part of the time for planning.
   static constexpr std::chrono::milliseconds kQuietEnd = core::budget::kQuietEnd;
 
-  /// Planning ends at `deadline`. `make_answer` writes the answer with a plan, or rejects
-  /// it.
+  /// Planning ends at `deadline`. `make_answer` writes the answer with a plan, or rejects the plan.
   ProgressReporter(PlanEvents& events, std::size_t robots, Clock::time_point deadline,
                    MakeAnswer make_answer);
 
@@ -81,7 +80,7 @@ class ProgressReporter final : public core::PlanObserver {
   bool wants_plan() override;
   void show(const core::CheckedPlan& plan) override;
 
-  /// The 500 for a plan that the checker rejected; none if it rejected none.
+  /// The 500 for a plan that the checker rejected; none if it rejected no plan.
   const std::optional<Reply>& rejection() const { return rejection_; }
 
  private:
@@ -112,20 +111,20 @@ class Turn {
   Turn& operator=(const Turn&) = delete;
   virtual ~Turn() = default;
 
-  /// Asks for the turn, once, when the request is known to be valid. Returns at once; false when the server
-  /// is too busy for it.
+  /// Asks for the turn, once, when the request is known to be valid. Returns at once. Returns false if the
+  /// server is too busy for it.
   virtual bool request(const TurnNeed& need) = 0;
 
-  /// Waits for the turn that was granted. Returns false when the need's `stop` was met before, or when so
-  /// little of the time is left that the server gives up.
+  /// Waits for the turn that was granted. Returns false if the need's `stop` was met before, or if so little
+  /// time is left that the server gives up.
   virtual bool await() = 0;
 
-  /// Lets others have the turn meanwhile, and waits for the next one. To be called now and then by what takes
-  /// long once it has its turn. Returns false when the need's `stop` was met before.
+  /// Lets other requests have the turn, and waits for the next one. Long computations must call it now and
+  /// then once they have their turn. Returns false if the need's `stop` was met before.
   virtual bool let_others() = 0;
 };
 
-/// Gets the plan of an answer, which has passed the check, before the answer is written.
+/// Receives the plan of an answer, which has passed the check, before the answer is written.
 using AnsweredPlan = std::function<void(const core::Problem&, const core::Plan&)>;
 
 /// The context of a request: its limits, and who takes part in its work.

@@ -27,8 +27,9 @@ namespace fleetplan::api {
 /// The most runs of one study.
 inline constexpr std::size_t kMaxRuns = 100'000;
 
-/// A readable body of POST /v1/simulate. The actions of every plan are contiguous from the start of its robot
-/// on; whether plans collide is not judged. A robot without a plan has its committed actions as its plan.
+/// A readable body of POST /v1/simulate. The actions of every plan are contiguous from the start of its
+/// robot. Collisions between plans are not checked. A robot without a plan has its committed actions as its
+/// plan.
 struct SimulateRequest {
   core::OccupancyGrid grid;
   WorldFrame frame;
@@ -45,7 +46,7 @@ struct SimulateRequest {
   std::vector<std::string> warnings = {};
 };
 
-/// Reads a body of POST /v1/simulate; ends with `parse_unfinished` or `draining` when `work` is met.
+/// Reads a body of POST /v1/simulate. Ends with `parse_unfinished` or `draining` when `work` is met.
 Result<SimulateRequest, RequestError> parse_simulate_request(std::string_view body, const Limits& limits,
                                                              core::Work& work);
 

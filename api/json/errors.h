@@ -1,8 +1,10 @@
 #pragma once
 
-// Expected failures: the faults of a request's content (what they are, where they stand, and the phrases of
-// their details), the errors of the service, from one table, and results that are either a value or a
-// failure.
+// Expected failures:
+//
+// - the faults of a request's content: what they are, where they stand, and the phrases of their details,
+// - the errors of the service, from one table,
+// - results that are either a value or a failure.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,9 +22,7 @@ namespace fleetplan::api {
 /// The outcome of an operation that can fail in an expected way: either its value or its failure, two
 /// different types. Ask first:
 ///
-///   auto document = read_json(body, depth);
-///   if (!document) return report(document.failure());
-///   use(*document);
+/// auto document = read_json(body, depth); if (!document) return report(document.failure()); use(*document);
 template <typename Value, typename Failure>
 class [[nodiscard]] Result {
  public:
@@ -78,9 +78,9 @@ inline constexpr const char* kDependency = "dependency";     // dependencies of 
 inline constexpr const char* kInvalidPlan = "invalid_plan";  // plans that the check rejects
 }  // namespace fault
 
-/// The faults of one document, collected while it is read. All are counted, and the first kMaxListed in the
-/// order of the document are kept; of the others not even the text is made, so that a hostile document costs
-/// neither time nor memory.
+/// The faults of one document, collected while it is read. All are counted. The first kMaxListed in the order
+/// of the document are kept. For the others, not even the text is made, so a hostile document costs neither
+/// time nor memory.
 class FaultList {
  public:
   static constexpr std::size_t kMaxListed = 20;
@@ -91,7 +91,7 @@ class FaultList {
     ++count_;
     if (wanted(place)) keep({place, make_fault()});
   }
-  /// Adds those of another list.
+  /// Adds the faults of another list.
   void add_all(FaultList other);
   /// Counts faults that were found, but not described.
   void count_more(std::size_t faults) { count_ += faults; }
@@ -138,17 +138,17 @@ struct Location {
   std::string name;     // name of the last step, for messages: the key, "item 3" or "the document"
 };
 
-/// Finds a value of the document with this root, by its place in it.
+/// Finds where a value stands in the document with this root.
 Location locate(const JsonValue& root, const JsonValue& value);
 
 /// Returns one step of a JSON Pointer: "/" and the key, with ~ and / escaped.
 std::string pointer_step(std::string_view key);
 
-/// Returns where and why a body is not JSON: line, column and byte (each from 1; columns in bytes) and the
+/// Returns where and why a body is not JSON: line, column and byte (each from 1; columns in bytes), and the
 /// text there. `position`: how many bytes had been read when the parser stopped.
 std::string explain_malformed(std::string_view body, std::size_t position);
 
-/// Every error of the service; its row in the table (errors.cpp) gives the HTTP status, `code` and `title`.
+/// Every error of the service. Its row in the table (errors.cpp) gives the HTTP status, `code` and `title`.
 enum class ErrorCode {
   malformed_json,          // 400
   too_deep,                // 400
@@ -173,11 +173,11 @@ enum class ErrorCode {
   draining,                // 503, shutting down
 };
 
-/// Ends the detail of a body that is too large: nearly always its map.
+/// Ends the detail of a body that is too large. The cause is nearly always its map.
 inline constexpr const char* kLargeMapRemedy =
     " A large map is smallest as a PNG, in map.image.png; see GET /v1/limits.";
 
-/// Returns the detail of the 413 for a body of `size` bytes, a number or "at least" one.
+/// Returns the detail of the 413 for a body of `size` bytes. `size` is a number or "at least" a number.
 std::string too_large_body_detail(std::string_view size, std::uint64_t limit);
 
 inline constexpr const char* kDrainingDetail = "The service is shutting down: try another replica.";

@@ -1,7 +1,7 @@
 #pragma once
 
 // Strict JSON: UTF-8, no NaN, no comments, nothing after the document, no key twice, bounded depth. A body is
-// read into a document, and a reader gives access to its values and reports what is wrong with them.
+// read into a document. A reader gives access to its values and reports what is wrong with them.
 
 #include <concepts>
 #include <cstddef>
@@ -18,8 +18,8 @@
 
 namespace fleetplan::api {
 
-/// A document that is JSON, with the faults that only its reader can see (duplicate keys), and when to end
-/// reading it. The text has to outlive it.
+/// A JSON document. It has the faults that only its reader can see (duplicate keys), and the condition that
+/// ends reading it. The text must outlive it.
 struct JsonDocument {
   JsonTape tape;
   FaultList faults;
@@ -28,7 +28,7 @@ struct JsonDocument {
   JsonValue root() const { return tape.root(); }
 };
 
-/// Why a body is not a document that can be read.
+/// Why a body cannot be read as a document.
 struct JsonError {
   enum class Kind {
     malformed,  // the detail has line, column and byte
@@ -40,19 +40,23 @@ struct JsonError {
   std::string detail;
 };
 
-/// Reads a body. Arrays and objects may nest up to `max_depth` deep. Of two members with the same key the
-/// first counts, and the later one is a fault. Uses no stack that grows with the body.
+/// Reads a body. Arrays and objects may nest up to `max_depth` deep. If two members have the same key, the
+/// first counts, and the second is a fault. The use of the stack does not grow with the body.
 Result<JsonDocument, JsonError> read_json(std::string_view body, int max_depth, core::Work& work);
 
-/// Returns the values of a text that is JSON. Reads them several times as fast as the general parser, which
-/// megabytes of numbers or a large image need. Returns none if the text is not JSON, nests deeper than
-/// `max_depth`, has more than `max_values` values or a number beyond the range of doubles or of 18 digits, or
-/// if `work` is met. Then the general parser has the answer, and says what is wrong.
+/// Returns the values of a text that is JSON. Several times as fast as the general parser, which matters for
+/// megabytes of numbers or a large image. Returns none in these cases; then the general parser has the
+/// answer, and says what is wrong:
+///
+/// - The text is not JSON, or nests deeper than `max_depth`.
+/// - It has more than `max_values` values.
+/// - It has a number beyond the range of doubles, or of 18 digits.
+/// - `work` is met.
 std::optional<JsonTape> parse_valid_json(std::string_view text, std::size_t max_depth, std::size_t max_values,
                                          core::Work& work);
 
-/// Returns how many bytes from the begin are characters of a JSON string as they are (RFC 8259, section 7):
-/// valid UTF-8 without quotes, backslashes and control characters.
+/// Returns how many bytes at the begin are plain characters of a JSON string (RFC 8259, section 7): valid
+/// UTF-8 without quotes, backslashes and control characters.
 std::size_t plain_length(std::string_view text);
 
 /// A closed range of numbers, and their unit for messages.
@@ -65,10 +69,12 @@ struct Range {
 /// The most characters of a name. An answer repeats names as often as robots conflict.
 inline constexpr std::size_t kLongestName = 256;  // characters
 
-/// A value of a document, or the absence of one, with typed access. What is wrong with the value becomes a
-/// fault of the document, at the value's place; the read then returns nothing, as it does for an absent
-/// value. A reader is a handle, copied freely; the document must outlive it and stay where it is. What is
-/// absent from a document knows which one, too.
+/// A value of a document, or the absence of a value, with typed access. If something is wrong with the value,
+/// reading it adds a fault at the value's place, and returns nothing. Reading an absent value also returns
+/// nothing.
+///
+/// A reader is a handle and may be copied freely. The document must outlive it and must not move. A reader of
+/// an absent value knows its document, too.
 class JsonReader {
  public:
   JsonReader() = default;  // absent, and of no document
@@ -79,7 +85,7 @@ class JsonReader {
   bool is_null() const { return value_ && value_->is_null(); }
   bool is_number() const { return value_ && value_->number().has_value(); }
   std::optional<std::uint64_t> natural() const;
-  /// The text of a string; none when the value is something else, which is no fault.
+  /// The text of a string. None if the value is something else, which is no fault.
   std::optional<std::string_view> string() const { return value_ ? value_->string() : std::nullopt; }
 
   /// The value itself if it is an object, otherwise absent. Members that are not `known` are faults.
@@ -98,25 +104,24 @@ class JsonReader {
   /// stopped.
   class Items;
   Items items() const;
-  /// Returns all members of the object, for a range-based loop that ends early in the same way; their keys
-  /// are value().key(). It is meant for objects of many members, as `find` looks at all members that come
-  /// before.
+  /// Returns all members of the object, for a range-based loop that ends early in the same way. Their keys
+  /// are value().key(). For objects of many members, because `find` looks at all members before its result.
   Items members() const;
 
   std::optional<double> number(const Range& range) const;
-  /// Returns a whole number from 0 to `max`; anything else is a fault.
+  /// Returns a whole number from 0 to `max`. Anything else is a fault.
   std::optional<std::uint64_t> natural(std::uint64_t max) const;
   std::optional<bool> boolean() const;
-  /// Returns a string of 1 to kLongestName characters; anything else is a fault.
+  /// Returns a string of 1 to kLongestName characters. Anything else is a fault.
   std::optional<std::string> name() const;
-  /// Returns the index of the word that the string is; anything else is a fault.
+  /// Returns the index of the string among the words. Anything else is a fault.
   std::optional<std::size_t> word(std::span<const std::string_view> words) const;
 
   /// The value, which must be there.
   const JsonValue& value() const { return *value_; }
-  /// The value, which must be there, for a message: `the string "abc"`, `-1`, `an array`.
+  /// The value in words, for a message: `the string "abc"`, `-1`, `an array`. The value must be there.
   std::string description() const;
-  /// Adds a fault at the value, which must be there.
+  /// Adds a fault at the value. The value must be there.
   void fault(const char* code, const std::string& detail) const {
     fault(code, [&] { return detail; });
   }
@@ -134,11 +139,12 @@ class JsonReader {
   void must_be(const char* code, const MakeWanted& make_wanted, std::string_view note = {}) const {
     document_->faults.add(value_->begins(), [&] { return unwanted(code, make_wanted(), note); });
   }
-  /// Returns a fault at the value, which must be there, without adding it to those of the document.
+  /// Returns a fault at the value, but does not add it to the faults of the document. The value must be
+  /// there.
   Fault described_fault(const char* code, std::string detail) const {
     return {pointer(), code, std::move(detail)};
   }
-  /// Returns the faults that `read` finds, which are then none of the document.
+  /// Returns the faults that `read` finds. They are not added to the document.
   template <std::invocable Read>
   FaultList faults_of(const Read& read) const {
     FaultList of_document = std::exchange(document_->faults, {});
@@ -181,7 +187,7 @@ class JsonReader::Items {
       ++*at_;
       return *this;
     }
-    /// Whether the loop ends, which is also true when the reading is stopped. Compare it with the end only.
+    /// Whether the loop ends. Also true when the reading is stopped. Compare it only with the end.
     bool operator==(const Iterator& end) const {
       return !end.at_ || *at_ == *end.at_ || document_->work->met_after(kWorkOfAValue);
     }

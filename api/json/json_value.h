@@ -14,10 +14,10 @@ namespace fleetplan::api {
 
 class JsonValue;
 
-/// The place of something in its document; comparable, otherwise meaningless.
+/// The place of something in its document. Comparable, otherwise meaningless.
 using JsonPlace = std::uint64_t;
 
-/// The nodes of a document. The text has to outlive it.
+/// The nodes of a document. The text must outlive it.
 class JsonTape {
  public:
   enum class Kind : std::uint8_t { null, boolean, natural, integer, real, text, decoded, array, object };
@@ -29,7 +29,7 @@ class JsonTape {
   void add_natural(std::uint64_t number) { add(Kind::natural, {.natural = number}); }
   void add_integer(std::int64_t number) { add(Kind::integer, {.integer = number}); }
   void add_real(double number) { add(Kind::real, {.real = number}); }
-  /// Adds a string or a key, whose characters end before `end` in the text if they have no escapes.
+  /// Adds a string or a key. If its characters have no escapes, they end before `end` in the text.
   void add_string(std::string_view string, std::size_t end);
   /// Begins an array or object; returns its node.
   std::uint32_t open(Kind kind);
@@ -37,7 +37,7 @@ class JsonTape {
 
   std::size_t size() const { return nodes_.size(); }
   JsonValue root() const;
-  /// Returns the value at a node; at the node of a key, its string.
+  /// Returns the value at a node. At the node of a key, returns its string.
   JsonValue value(std::uint32_t node) const;
 
  private:
@@ -70,19 +70,19 @@ class JsonTape {
   std::deque<Node> nodes_;  // grows without copies, and without room for twice as many
 };
 
-/// One value of a document: a handle, copied freely; its tape must outlive it and stay where it is. Numbers
-/// keep their 64-bit integers exactly; a number too large for a double is infinite.
+/// One value of a document. It is a handle and may be copied freely. Its tape must outlive it and must not
+/// move. Numbers keep their 64-bit integers exactly. A number too large for a double is infinite.
 class JsonValue {
  public:
   class Children;
 
   bool is_null() const { return held().kind == JsonTape::Kind::null; }
   std::optional<bool> boolean() const;
-  /// Returns any number as a double; infinite when it was too large for one.
+  /// Returns any number as a double; infinite if it is too large.
   std::optional<double> number() const;
-  /// Returns a whole number from 0 to 2^64 - 1, also when written like 5.0; none for other values.
+  /// Returns a whole number from 0 to 2^64 - 1, even if written like 5.0. None for other values.
   std::optional<std::uint64_t> natural() const;
-  /// Returns a number that is written as a whole one from -2^63 to -1; none for other values.
+  /// Returns a number that is written as a whole number from -2^63 to -1. None for other values.
   std::optional<std::int64_t> integer() const;
   std::optional<std::string_view> string() const;
   bool is_array() const { return held().kind == JsonTape::Kind::array; }
@@ -94,7 +94,7 @@ class JsonValue {
   Children children() const;
   /// Returns an item of an array, in time proportional to the index.
   JsonValue item(std::size_t index) const;
-  /// Returns the first member of that name of an object.
+  /// Returns the first member of an object with this name.
   std::optional<JsonValue> find(std::string_view key) const;
   /// The key of a value that is a member of an object.
   std::string_view key() const { return tape_->string(tape_->nodes_[node_ - 1]); }

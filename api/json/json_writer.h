@@ -14,9 +14,9 @@ namespace fleetplan::api {
 template <typename T>
 concept WholeNumber = std::integral<T> && !std::same_as<T, bool>;
 
-/// Writes JSON text from front to back, without a tree in memory; adds the commas. Numbers are the shortest
-/// that read back the same, never -0.0; non-finite numbers become null. Invalid UTF-8 in strings becomes
-/// U+FFFD.
+/// Writes JSON text from front to back, without a tree in memory, and adds the commas. A number has the
+/// shortest text that reads back the same, never -0.0. Non-finite numbers become null. Invalid UTF-8 in
+/// strings becomes U+FFFD.
 class JsonWriter {
  public:
   JsonWriter& begin_object();
@@ -58,8 +58,8 @@ class JsonWriter {
   std::string text_;
 };
 
-/// Writes a value of a document with all that is in it. Numbers keep their values, whole ones up to 2^64 - 1
-/// exactly.
+/// Writes a value of a document with everything in it. Numbers keep their values; whole numbers up to 2^64 -
+/// 1 exactly.
 void copy_json(JsonWriter& json, const JsonValue& value);
 
 /// Writes a value of a document without `null`: members and items that are null are left out.

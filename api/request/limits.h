@@ -1,6 +1,6 @@
 #pragma once
 
-// What a single request may ask for: how much of everything, and the ranges of numbers.
+// What a single request may ask for: the number or size of each thing, and the ranges of numbers.
 
 #include <fleetplan/limits.h>
 
@@ -33,7 +33,7 @@ struct Limits {
 /// The most pairs of poses of one matrix, and of robots and tasks of one assignment.
 inline constexpr std::size_t kMaxPairs = 250'000;
 
-// The ranges of numbers in requests are those of the library.
+// The ranges of numbers in requests equal the library's ranges.
 inline constexpr Range kLength{kShortestLength, kLargestExtent, "metres"};
 inline constexpr Range kLengthOrZero{0.0, kLargestExtent, "metres"};
 inline constexpr Range kCoordinate{-kFarthestCoordinate, kFarthestCoordinate, "metres"};
@@ -54,7 +54,7 @@ inline constexpr Range kAnyAngle{std::numeric_limits<double>::lowest(), std::num
                                  "radians"};
 inline constexpr Range kWeight{kLeastWeight, kMaxWeight, ""};  // of robots and tasks
 inline constexpr Range kFraction{0.0, 1.0, ""};                // fraction of an action
-/// The greatest number of an action or a goal of a robot; far beyond any limit of a request.
+/// The greatest number of an action or a goal of a robot. Far beyond any limit of a request.
 inline constexpr std::uint64_t kGreatestIndex = 1'000'000'000;
 
 }  // namespace fleetplan::api

@@ -1,7 +1,7 @@
 #pragma once
 
-// The options of a request in one table. The parser, the schema PlanOptions of api/openapi.json, and through
-// that the page and the documentation, follow it.
+// The options of a request in one table. The parser and the schema PlanOptions of api/openapi.json follow it.
+// The page and the documentation follow the schema.
 
 #include <chrono>
 #include <cstddef>
@@ -58,13 +58,13 @@ struct NaturalOption {
   OptionField<std::uint64_t> field;
 };
 
-/// A whole number from 0 to `max`, or null, the default, for no bound.
+/// A whole number from 0 to `max`, or null for no bound. null is the default.
 struct BoundOption {
   std::uint64_t max;
   OptionField<std::optional<std::int64_t>> field;
 };
 
-/// A real number, or null, the default, if the planner is to choose.
+/// A real number, or null if the planner is to choose. null is the default.
 struct ChosenOption {
   Range range;
   OptionField<std::optional<double>> field;
@@ -80,7 +80,7 @@ struct BooleanOption {
   OptionField<bool> field;
 };
 
-/// A real number, and below a boolean, that affect not the plan but the answer with it.
+/// A real number, and below a boolean. They affect only the answer, not the plan.
 struct AnswerRealOption {
   Range range;
   double ParsedOptions::*field;
@@ -89,7 +89,7 @@ struct AnswerBooleanOption {
   bool ParsedOptions::*field;
 };
 
-/// One of a few words, each with what it means, in the order of the enumeration.
+/// One of a few words, each with its meaning, in the order of the enumeration.
 struct WordOption {
   struct Word {
     std::string_view name;
@@ -110,16 +110,16 @@ struct OptionRow {
   std::string_view description;  // CommonMark
 };
 
-/// Returns all options. The defaults are those of ParsedOptions.
+/// Returns all options. The defaults equal the defaults of ParsedOptions.
 std::span<const OptionRow> option_table();
 
-/// Reads the member `options`, by the table of options; what is left out has its default.
+/// Reads the member `options`, by the table of options. Missing options have their defaults.
 ParsedOptions parse_options(const JsonReader& member);
 
-/// Returns the requested budget, or the default one, but at most the service's maximum.
+/// Returns the requested budget, or the default budget, but at most the service's maximum.
 std::chrono::nanoseconds effective_budget(const ParsedOptions& options, const Limits& limits);
 
-/// Returns the warning of a budget that is less than requested; none if it is not.
+/// Returns the warning that the budget is less than requested; none if it is not less.
 std::optional<std::string> budget_warning(const ParsedOptions& options, const Limits& limits);
 
 /// Whether the answer is to have dependencies, and which.

@@ -22,8 +22,8 @@
 
 namespace fleetplan::api {
 
-/// Reads `obstacles` (may be absent), in the map frame. Motion before t = 0 is cut off, and an obstacle that
-/// is gone by then is left out. `ids` has those of the robots.
+/// Reads `obstacles` (may be absent), in the map frame. Motion before t = 0 is cut off. An obstacle that is
+/// gone by then is left out. `ids` has the ids of the robots.
 std::vector<core::MovingObstacle> parse_obstacles(const JsonReader& member, const WorldFrame& frame,
                                                   const Limits& limits, UniqueIds& ids);
 
@@ -38,29 +38,29 @@ struct Fleet {
   std::string metadata;  // see parse_metadata
 };
 
-/// Returns which dependencies are requested. Robots without a margin have that of the options.
+/// Returns which dependencies are requested. A robot without its own margin has the margin of the options.
 RequestedDependencies requested_dependencies(const Fleet& fleet);
 
-/// Reads the fleet from the root of the document. `set_budget` gets the options, which are read first.
+/// Reads the fleet from the root of the document. `set_budget` receives the options, which are read first.
 /// `given`, which may be null, remembers positions for the frame of the map, see WorldFrame.
 Fleet parse_fleet(const JsonReader& root, const Limits& limits,
                   const std::function<void(const ParsedOptions&)>& set_budget,
                   GivenPositions* given = nullptr);
 
-/// Reports a lattice of too many vertices, or of none. `options` is the member of the request.
+/// Reports a lattice with too many vertices, or without any. `options` is the member of the request.
 void check_lattice(const JsonReader& options, const core::PlanOptions& plan, const core::OccupancyGrid& grid,
                    const Limits& limits);
 
 RequestError request_error(const JsonError& error, const core::Work& work);
-/// Returns the error with the listed faults, of which there must be one, and the number of all.
+/// Returns the error with the listed faults and the number of all faults. There must be at least one.
 RequestError request_error(const FaultList& faults);
 
 /// Returns the error of a request whose reading was stopped.
 RequestError unfinished(const core::Work& work);
 
-/// Reads a body whose root has these members. `parse` gets a reader of the root and the work, which it may
-/// give the budget, and returns an optional request, which is empty only when it reported faults or when the
-/// work was met. Returns the request if the document has no fault at all.
+/// Reads a body whose root has these members. Returns the request if the document has no fault at all.
+/// `parse` gets a reader of the root and the work, whose budget it may set. It returns an optional request,
+/// which is empty only if it reported faults or if the work was met.
 template <typename Request, typename Parse>
 Result<Request, RequestError> parse_body(std::string_view body, const Limits& limits, core::Work& work,
                                          std::span<const std::string_view> members, const Parse& parse) {

@@ -44,18 +44,18 @@ struct PlanRequest {
 /// Tells the answer which poses are chosen for the open goals.
 void tell_choices(const core::OpenGoals& open, std::vector<ReceivedRobot>& received);
 
-/// Reads a request of POST /v1/plan, which may be a part of a body. Returns none only when it reported
-/// faults, or when `work` is met.
+/// Reads a request of POST /v1/plan, which may be a part of a body. Returns none only if it reported faults,
+/// or if `work` is met.
 std::optional<PlanRequest> parse_plan_request(const JsonReader& request, const Limits& limits,
                                               core::Work& work, core::MapCache* maps);
 
-/// Reads a body of POST /v1/plan; ends with `parse_unfinished` or `draining` when `work` is met. `maps`,
-/// which may be null, has those of earlier requests.
+/// Reads a body of POST /v1/plan. Ends with `parse_unfinished` or `draining` when `work` is met. `maps`,
+/// which may be null, has the maps of earlier requests.
 Result<PlanRequest, RequestError> parse_request(std::string_view body, const Limits& limits, core::Work& work,
                                                 core::MapCache* maps = nullptr);
 
-/// A readable body of POST /v1/validate. Robots may overlap obstacles and each other, which the checker
-/// reports.
+/// A readable body of POST /v1/validate. Robots may overlap obstacles and each other; the checker reports
+/// this.
 struct ValidateRequest {
   core::OccupancyGrid grid;
   std::vector<core::Robot> robots;
@@ -67,7 +67,7 @@ struct ValidateRequest {
   std::chrono::nanoseconds budget{};  // time for the check
 };
 
-/// Reads a body of POST /v1/validate; ends with `parse_unfinished` or `draining` when `work` is met.
+/// Reads a body of POST /v1/validate. Ends with `parse_unfinished` or `draining` when `work` is met.
 Result<ValidateRequest, RequestError> parse_validate_request(std::string_view body, const Limits& limits,
                                                              core::Work& work);
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// What several members of a request have in common: the frame of their positions, quotas, ids that are
-// unique, and what answers repeat.
+// What several members of a request share: the frame of their positions, quotas, unique ids, and what answers
+// repeat.
 
 #include <algorithm>
 #include <array>
@@ -34,17 +34,18 @@ constexpr auto joined(const std::array<std::string_view, kCounts>&... lists) {
 inline constexpr std::array<std::string_view, 7> kFleetMembers{
     "map", "robot_defaults", "robots", "obstacles", "zones", "options", "metadata"};
 
-/// What the answers of POST /v1/advance and /v1/assign add to a request, for who executes the plans.
+/// The members that the answers of POST /v1/advance and /v1/assign add to a request, for the program that
+/// executes the plans.
 inline constexpr std::array<std::string_view, 5> kAddedMembers{"progress", "unavoidable", "unavoidable_total",
                                                                "assigned", "unassigned"};
 
-/// What an answer of POST /v1/plan has beside its plans.
+/// The members that an answer of POST /v1/plan has beside its plans.
 inline constexpr std::array<std::string_view, 17> kPlanAnswerMembers{
     "status",      "request_id",   "unplanned",     "flowtime",  "makespan",       "objective_value",
     "lower_bound", "verified",     "min_clearance", "search",    "deterministic",  "timings_ms",
     "warnings",    "dependencies", "tight",         "estimated", "lattice_spacing"};
 
-/// The members of a request of POST /v1/plan. What is added is ignored.
+/// The members of a request of POST /v1/plan. Added members are ignored.
 inline constexpr auto kPlanRequestMembers = joined(kFleetMembers, kAddedMembers);
 
 inline bool is_of_an_answer(std::string_view member) {
@@ -53,18 +54,19 @@ inline bool is_of_an_answer(std::string_view member) {
 
 class GivenPositions;
 
-/// Where the map lies in the client's world. The core plans in the map frame, whose origin is the lower-left
-/// corner of the map; the axes are the same.
+/// The position of the map in the client's world. The core plans in the map frame, whose origin is the
+/// lower-left corner of the map. The axes are the same.
 struct WorldFrame {
   core::Position origin{0.0, 0.0};  // origin of the map in the world, metres
-  /// Remembers positions that were given, so that they are given back to the last digit; null: nobody does.
+  /// Remembers the positions that were given, so that answers repeat them to the last digit. Null: positions
+  /// are not remembered.
   GivenPositions* given = nullptr;
 
   core::Position to_map(const core::Position& world) const;
   core::Position to_world(const core::Position& map) const;
 };
 
-/// Positions that a frame would not give back to the last digit.
+/// Positions that a frame would not reproduce to the last digit.
 class GivenPositions {
  public:
   void keep(const core::Position& map, const core::Position& world) {
@@ -99,7 +101,7 @@ class Quota {
   Quota(std::size_t max, std::string_view what) : left_(max), max_(max), what_(what) {}
 
   /// Takes the items of an array from the quota. Returns whether all are within it. Only the first array
-  /// beyond it is a fault; all later ones are not.
+  /// beyond the quota is a fault; later arrays are not.
   bool take(const JsonReader& array) { return take(array.size(), array); }
   /// Takes so many items, which come from the value `place`. Returns whether they are within the quota.
   bool take(std::size_t count, const JsonReader& place) {
@@ -124,7 +126,7 @@ class Quota {
   bool exceeded_ = false;
 };
 
-/// Reports every id that an earlier robot or obstacle has.
+/// Reports every id that an earlier robot or obstacle already has.
 class UniqueIds {
  public:
   enum class Kind { robot, obstacle };
@@ -156,18 +158,19 @@ class UniqueIds {
 /// The most bytes of one object of metadata, and of the actions of a goal, written without spaces.
 inline constexpr std::size_t kMaxMetadataBytes = 16'384;
 
-/// Reads `metadata` of a request, a robot or a goal: an object that the answer repeats and that means nothing
-/// here. Returns it as JSON text, or an empty text if it is absent or at fault.
+/// Reads `metadata` of a request, a robot or a goal: an object that has no meaning here and that the answer
+/// repeats. Returns it as JSON text. Returns an empty text if it is absent or has a fault.
 std::string parse_metadata(const JsonReader& owner);
 
-/// Reads `actions` of a goal: what the robot does there during its service, which means nothing here and is
-/// repeated. Returns them as JSON text, or an empty text if they are absent or at fault.
+/// Reads `actions` of a goal: what the robot does there during its service. They have no meaning here, and
+/// the answer repeats them. Returns them as JSON text. Returns an empty text if they are absent or have a
+/// fault.
 std::string parse_goal_actions(const JsonReader& goal);
 
-/// Returns the list as JSON text. Too long a text is a fault.
+/// Returns the list as JSON text. A text that is too long is a fault.
 std::string text_of_any_of(const JsonReader& any_of);
 
-/// What answers repeat of a goal, as JSON text; empty if it does not have it.
+/// What answers repeat of a goal, as JSON text. A text is empty if the goal does not have the member.
 struct GoalTexts {
   std::string metadata;  // see parse_metadata
   std::string actions;   // see parse_goal_actions
@@ -176,15 +179,15 @@ struct GoalTexts {
   bool empty() const { return metadata.empty() && actions.empty() && any_of.empty(); }
 };
 
-/// The actions of a request as they were received, in the world and with their headings as given. Only those
-/// are kept that the core's numbers do not give back: the map's origin rounds them, or they were joined to
-/// the action before.
+/// The actions of a request as they were received, in the world and with their headings as given. An action
+/// is kept only if the core's numbers do not reproduce it, because the map's origin rounds them, or because
+/// the action was joined to the previous action.
 class ReceivedMotion {
  public:
   /// Keeps an action by its index; indices ascend.
   void keep(std::size_t index, const core::Action& world) { kept_.push_back({index, world}); }
 
-  /// Returns the action as received, or null if the core's numbers give it back.
+  /// Returns the action as received, or null if the core's numbers reproduce it.
   const core::Action* find(std::size_t index) const {
     const auto found =
         std::lower_bound(kept_.begin(), kept_.end(), index,
@@ -208,11 +211,11 @@ struct ReceivedRobot {
   std::vector<Fault> errors;               // why it is invalid; empty if it is not
   std::string metadata = {};               // of the robot, see parse_metadata
   std::vector<GoalTexts> goal_texts = {};  // by goal, as in ParsedGoals
-  /// By goal: the number of the pose of `any_of` that the plan goes to; none for a goal without. Shorter if
-  /// the last ones have none.
+  /// By goal: the number of the pose of `any_of` where the plan serves the goal; none for a goal without
+  /// `any_of`. Shorter if the last goals have none.
   std::vector<std::optional<std::size_t>> choices = {};
   /// By goal: where the plan serves it, in the map frame; none for a goal without tolerance. Shorter if the
-  /// last ones have none.
+  /// last goals have none.
   std::vector<std::optional<core::Position>> places = {};
 };
 

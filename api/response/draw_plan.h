@@ -11,14 +11,14 @@
 
 namespace fleetplan::api {
 
-/// Returns a picture of a plan as SVG, one unit a metre: blocked cells, zones, and for each robot its disk at
-/// the start as a ring, its way, and its disk at the end with its heading. Robots without a plan are gray.
-/// Returns none if the stop is met first.
+/// Returns a picture of a plan as SVG, one unit a metre. It shows blocked cells and zones. For each robot, it
+/// shows the disk at the start as a ring, the way, and the disk at the end with its heading. Robots without a
+/// plan are gray. Returns none if the stop is met first.
 std::optional<std::string> draw_plan(const core::Problem& problem, const core::Plan& plan,
                                      const core::StopCondition& stop);
 
-/// Returns the picture of draw_plan as a PNG, whose longer side has kPaintedSide pixels, without names.
-/// Returns none if the stop is met first.
+/// Returns the picture of draw_plan as a PNG without names. The longer side has kPaintedSide pixels. Returns
+/// none if the stop is met first.
 std::optional<std::string> paint_plan(const core::Problem& problem, const core::Plan& plan,
                                       const core::StopCondition& stop);
 

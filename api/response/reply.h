@@ -17,14 +17,15 @@ namespace fleetplan::api {
 
 /// The outcome of a valid request to plan, for metrics and the log.
 struct PlanOutcome {
-  /// solved: every robot has a plan; partial: some have; none: no robot has. refused: by the checker, a bug.
+  /// solved: every robot has a plan. partial: some robots have a plan. none: no robot has a plan. refused:
+  /// the checker rejected the plan, which is a bug.
   enum class Status { solved, partial, none, refused };
   Status status = Status::none;
   std::size_t planned = 0;      // robots
   std::size_t unplanned = 0;    // robots
   std::int64_t expansions = 0;  // search labels
   double flowtime = 0.0;        // seconds, of the planned robots
-  /// Time for planning, without parsing, checking and writing; none when the budget was spent before.
+  /// Time for planning, without parsing, checking and writing. None if the budget was spent before.
   std::optional<double> plan_seconds = std::nullopt;
   std::array<std::size_t, core::kUnplannedReasons> unplanned_by_reason = {};  // by Unplanned::Reason
 };
@@ -56,7 +57,7 @@ struct Reply {
   std::string_view problem = {};  // the error's code, e.g. "not_found"; empty: none
   std::optional<PlanOutcome> outcome = std::nullopt;
 
-  /// The objects that were needed to make the answer, to be freed once it is sent; null: nothing.
+  /// The objects that were needed to make the answer. They are freed once it is sent. Null: nothing.
   std::shared_ptr<const void> leftovers = nullptr;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// The answer with a plan, the parts of it that other answers have as well, and the report of a check.
+// The answer with a plan, its parts that other answers also have, and the report of a check.
 
 #include <chrono>
 #include <optional>
@@ -45,20 +45,21 @@ struct VerifiedPlan {
   const std::vector<std::string>& warnings;
   const std::string& metadata;           // metadata of the request, as JSON; empty: none
   std::vector<double> lattice_spacings;  // by robot, metres; empty: neither asked for nor chosen
-  /// The dependencies of the answer; null if they were not asked for, none if they were not made in time.
+  /// The dependencies of the answer. Null if they were not asked for; none if they were not made in time.
   const std::optional<core::Dependencies>* dependencies = nullptr;
   std::optional<double> objective_value = {};  // none: it is the flowtime or the makespan
-  /// By robot of plan.unplanned, where its way is too narrow; may be empty.
+  /// By robot of plan.unplanned: where its way is too narrow. May be empty.
   std::vector<std::optional<core::NarrowPlace>> narrow_places = {};
 };
 
-/// Returns the answer of POST /v1/plan. Writing ends with the timings, so that they include it.
+/// Returns the answer of POST /v1/plan. The timings are written last, so that they include the writing.
 std::string write_response(const VerifiedPlan& verified, const std::string& request_id,
                            const StageTimes& stages);
 
-/// Writes the member `actions` of a robot. Committed actions, and previous ones that the plan repeats, have
-/// the numbers received; what follows begins with the position in which they end. `origin` is that of the map
-/// in the world. Returns false, with a part of the text written, if `stop`, which may be null, is met first.
+/// Writes the member `actions` of a robot. Committed actions, and previous actions that the plan repeats,
+/// have the numbers received. The next action begins with the position in which they end. `origin`: the map's
+/// origin in the world. `stop` may be null. Returns false if it is met first; then only a part of the text is
+/// written.
 bool write_actions(JsonWriter& json, const std::vector<core::Action>& actions, const core::Robot& robot,
                    const ReceivedRobot& received, const core::Position& origin,
                    const core::StopCondition* stop = nullptr);
@@ -66,7 +67,7 @@ bool write_actions(JsonWriter& json, const std::vector<core::Action>& actions, c
 /// Writes the member `profile` of an action.
 void write_profile(JsonWriter& json, const core::SpeedProfile& profile);
 
-/// Writes the members `dependencies` and `tight`; without dependencies (null), both are null.
+/// Writes the members `dependencies` and `tight`. Without dependencies (null), both are null.
 void write_dependencies(JsonWriter& json, const core::Dependencies* dependencies,
                         const std::vector<core::Robot>& robots);
 
@@ -75,7 +76,7 @@ void write_dependencies(JsonWriter& json, const core::Dependencies* dependencies
 std::optional<double> reported_clearance(const core::VerifyReport& report);
 
 /// Returns the answer of POST /v1/validate. It contains at most the first twenty violations and the number of
-/// all, with `"truncated": true` if there are more.
+/// all. If there are more, it has `"truncated": true`.
 std::string write_report(const core::VerifyReport& report, const std::vector<core::Robot>& robots,
                          const std::vector<core::MovingObstacle>& obstacles,
                          const std::vector<core::Zone>& zones);

@@ -29,10 +29,10 @@ namespace fleetplan::api {
 inline constexpr std::array<std::string_view, 7> kMatrixMembers{"map", "zones",   "robot", "from",
                                                                 "to",  "options", "format"};
 
-/// How a matrix has its numbers: as they are, with null where there is no way, or as whole numbers.
+/// The format of the numbers in a matrix: as they are, with null where there is no way, or as whole numbers.
 enum class MatrixFormat { numbers, integers };
 
-/// A pose in the map frame; without theta, in any heading.
+/// A pose in the map frame. Without theta, in any heading.
 struct MatrixPose {
   core::Position position{0.0, 0.0};
   std::optional<double> theta;
@@ -65,18 +65,19 @@ struct MatrixRequest {
 std::optional<MatrixRequest> parse_matrix_request(const JsonReader& root, const Limits& limits,
                                                   core::Work& work, core::MapCache* maps);
 
-/// Returns the travel times between distinct poses, by those of `to` and then of `from`; see
-/// core::travel_times. A part of the poses is looked at at a time, so that memory suffices for any number.
+/// Returns the travel times between distinct poses, by the poses of `to` and then of `from`; see
+/// core::travel_times. It computes them for a part of the poses at a time, so that memory suffices for any
+/// number.
 std::optional<core::TravelAnswers> matrix_times(const MatrixRequest& request, const core::StopCondition& stop,
                                                 core::Executor& executor, const std::function<bool()>& go_on);
 
-/// Returns the answer, made of these times; none if `stop` is met first.
+/// Returns the answer with these times; none if `stop` is met first.
 std::optional<std::string> write_matrix(const MatrixRequest& request, const core::TravelAnswers& answers,
                                         const core::StopCondition& stop);
 
 inline constexpr std::array<std::string_view, 2> kAssignMembers{"request", "tasks"};
 
-/// What a request gives of a task beside the core's task.
+/// The members of a task that the core's task does not have.
 struct ReceivedTask {
   std::string id;
   double weight = 1.0;
@@ -103,15 +104,15 @@ struct Assigned {
   bool any_way = false;                   // whether any robot could do it
 };
 
-/// Gives each task to one robot, at most one each, at the least sum of weighted arrivals; `arrivals` as by
-/// core::arrivals(). If there are too few robots, the tasks without one weigh the least. Returns by task who
-/// does it; none if `stop` is met first.
+/// Gives each task to at most one robot, and each robot at most one task. If there are too few robots, the
+/// assignment leaves out the tasks of least total weight. It then minimizes the sum of weighted arrivals;
+/// `arrivals` as by core::arrivals(). Returns, by task, which robot does it; none if `stop` is met first.
 std::optional<std::vector<Assigned>> assigned(const AssignRequest& request,
                                               const std::vector<std::vector<double>>& arrivals,
                                               const core::StopCondition& stop);
 
-/// Returns the request of the body, with the goals of the tasks after those that their robots have,
-/// `assigned` and `unassigned`.
+/// Returns the request of the body with the results. The goals of the tasks follow the goals that their
+/// robots have. `assigned` and `unassigned` are added.
 std::string write_assigned(const AssignRequest& request, const std::vector<Assigned>& assigned);
 
 }  // namespace fleetplan::api

@@ -1,10 +1,11 @@
 #pragma once
 
 // Orders of VDA 5050, POST /v1/export/vda5050: what a robot may do now (the base), and what comes later (the
-// horizon). parse_export.cpp reads the request; write_orders.cpp names the nodes of orders and writes them.
+// horizon). The request is read in parse_export.cpp. The nodes of orders are named and written in
+// write_orders.cpp.
 //
-// What is released of the orders that vehicles have when a plan begins cannot be taken back: the new plan has
-// to begin with it, and the update of the order continues it.
+// When a plan begins, vehicles may have orders with a released part, which cannot be taken back. The new plan
+// must begin with it, and the update of the order continues it.
 
 #include <array>
 #include <cstddef>
@@ -46,20 +47,26 @@ struct OrderBase {
 /// Returns the place in these actions from which on the robot stands.
 core::ActionPlace last_stand(core::Actions actions);
 
-/// Returns why an order cannot be continued by a plan, as a sentence; none if it can. It can if the robot is
-/// committed to go past all that is still to do, and its committed motion ends there; and if it does not have
-/// to wait for anybody on the way. `closed`: the first gate of the plan that is closed for the robot.
+/// Returns why an order cannot be continued by a plan, as a sentence; none if it can be. It can be continued
+/// if all of these hold:
+///
+/// - The robot's commitment goes past everything that is still to do, and its committed motion ends there.
+/// - The robot does not have to wait for others on the way.
+///
+/// `closed`: the first gate of the plan that is closed for the robot.
 std::optional<std::string> why_it_ends(const OrderBase& base, const core::Robot& robot, core::Actions actions,
                                        const core::ActionPlace& closed, core::Work& work);
 
-/// Ids of updates and sequences are unsigned numbers of 32 bits, and there is one after each.
+/// Ids of updates and sequences are unsigned numbers of 32 bits. Each of them has a successor, so this is not
+/// the greatest number.
 inline constexpr std::uint64_t kGreatestId = 4'294'967'294;
 
-/// Metres between which the last released node and the end of committed motion are the same: rounding.
+/// Metres: if the last released node and the end of committed motion are nearer than this, they are the same.
+/// It covers rounding.
 inline constexpr double kSameNode = 1e-6;
 
-/// Returns the value itself if it is an object; otherwise an absent one. Messages may have more members than
-/// are known here.
+/// Returns the value itself if it is an object, otherwise an absent value. Messages may have more members
+/// than are known here.
 inline JsonReader message(const JsonReader& value) {
   if (!value || value.value().is_object()) return value;
   value.must_be(fault::kWrongType, "an object");
@@ -82,11 +89,12 @@ struct OrderProgress {
   std::uint64_t update_id = 0;                     // update of the last message
   std::uint64_t last_released = 0;                 // the sequence id of the last node of the base
   std::optional<std::string> cancel_id = {};       // of the action that cancels the order
-  std::optional<std::string> ended_order_id = {};  // without an order: of the one that was cancelled or lost
+  std::optional<std::string> ended_order_id = {};  // without an order: the id of the order that was cancelled
+                                                   // or lost
   std::size_t served = 0;                          // goals of the plan, the first ones; opens no gates
 };
 
-/// What the messages to a vehicle say of it.
+/// What the messages to a vehicle say about it.
 struct Vehicle {
   std::string manufacturer;
   std::string serial_number;
@@ -125,7 +133,7 @@ bool is_timestamp(std::string_view text);
 std::optional<VdaRequest> parse_vda5050_request(const JsonReader& root, const Limits& limits,
                                                 core::Work& work);
 
-/// An action of a node: one of a goal as the client has given it, or a service or wait of the plan.
+/// An action of a node: an action of a goal as the client has given it, or a service or wait of the plan.
 struct NodeAction {
   std::string_view type;
   std::string_view blocking_type = "HARD";
@@ -135,12 +143,12 @@ struct NodeAction {
   std::optional<std::size_t> goal = {};  // that it serves; none: an added wait
 };
 
-/// Returns the actions of a node in their order: a goal's own ones, after a wait for its `not_before`;
-/// otherwise its service.
+/// Returns the actions of a node in their order: a goal's own actions, after a wait for its `not_before`;
+/// otherwise, its service.
 std::vector<NodeAction> actions_of(const VdaRequest& request, std::size_t robot, const RouteNode& node);
 
-/// The ids of nodes, edges and actions of a robot's order. Those of a plan that continues an order differ
-/// from those that the order had, which the vehicle may know from its horizon.
+/// The ids of nodes, edges and actions of a robot's order. If a plan continues an order, it uses new ids: the
+/// vehicle may know the old ones from its horizon.
 class OrderNames {
  public:
   OrderNames(const VdaRequest& request, std::size_t robot, std::string_view order_id);
@@ -156,10 +164,12 @@ class OrderNames {
   std::string action_;
 };
 
-/// Returns the answer of POST /v1/export/vda5050: an order for each robot with actions that has none, and an
-/// update for each one of whose order more nodes can be released. With each, it tells what its nodes mean for
-/// the plan. If orders have to be cancelled, it has the messages for that instead: until these vehicles
-/// stand, nobody may go on by this plan, as they are not where it has them. Returns none if `work` is met.
+/// Returns the answer of POST /v1/export/vda5050. A robot with actions and without an order gets an order. A
+/// robot gets an update if more nodes of its order can be released. With each, the answer tells what its
+/// nodes mean for the plan. Returns none if `work` is met.
+///
+/// If orders have to be cancelled, the answer has the messages for this instead. Until these vehicles stand,
+/// no robot may go on by this plan, because they are not where it has them.
 std::optional<std::string> write_orders(const VdaRequest& request, core::Work& work);
 
 /// Writes the members `action` and `progress` of a place.

@@ -1,6 +1,6 @@
 #pragma once
 
-// What vehicles report in state messages of VDA 5050, as states of robots: POST /v1/import/vda5050.
+// Reads what vehicles report in state messages of VDA 5050 as states of robots: POST /v1/import/vda5050.
 
 #include <algorithm>
 #include <array>
@@ -32,8 +32,8 @@ inline constexpr auto kVdaImportMembers = [] {
 /// Reads the root of the document. Returns none if it has faults, or if `work` is met.
 std::optional<VdaImport> parse_vda5050_import(const JsonReader& root, const Limits& limits, core::Work& work);
 
-/// Returns the answer: `states` and `poses` for POST /v1/advance, `progress` for the next export, what became
-/// of the orders, and what was wrong with the messages. Returns none if `work` is met.
+/// Returns the answer: `states` and `poses` for POST /v1/advance, and `progress` for the next export. It also
+/// tells what became of the orders, and what was wrong with the messages. Returns none if `work` is met.
 std::optional<std::string> write_states(const VdaImport& import, core::Work& work);
 
 }  // namespace fleetplan::api

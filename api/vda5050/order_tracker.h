@@ -1,6 +1,6 @@
 #pragma once
 
-// How far a vehicle is with its order, by what it reports.
+// How far a vehicle is with its order, by its reports.
 
 #include <cstdint>
 #include <optional>
@@ -15,13 +15,14 @@
 
 namespace fleetplan::api {
 
-/// A vehicle that is nearer to its path is on it (metres): the pose_tolerance of POST /v1/advance by default.
+/// A vehicle that is nearer to its path than this is on its path (metres). Equals the default pose_tolerance
+/// of POST /v1/advance.
 inline constexpr double kBesidePath = 0.1;
 
-/// Returns the position of a robot at a place of its actions, of which there are some.
+/// Returns the position of a robot at a place of its actions. There must be actions.
 core::Position position_at(core::Actions actions, const core::ActionPlace& place);
 
-/// Why a vehicle has no order any more that it was given.
+/// Why a vehicle no longer has an order that it was given.
 enum class OrderEnd : std::uint8_t { none, cancelled, cleared, forgotten };
 
 /// An action at a goal that has failed.
@@ -31,37 +32,41 @@ struct FailedAction {
   std::optional<core::ActionPlace> at = {};  // where the service of this goal begins
 };
 
-/// The goals, the first ones, whose actions are finished, as far as the actions of an order were looked at.
+/// The first goals whose actions are finished, as far as the actions of an order were examined.
 struct FinishedGoals {
   std::size_t count = 0;
   bool are_all = true;  // no action that was looked at is not finished
 };
 
-/// Says what the report of one robot's vehicle means for its plan. A report counts if nothing in it is at
-/// fault, if it is of the order as it was sent, and if the vehicle knows where it is, on the map of its
-/// order, under the control of the fleet. Without such a report, all is as the request has it, but for the
-/// goals that are served: what a vehicle says of its actions is true wherever it is, and opens no gates.
+/// Says what the report of a robot's vehicle means for its plan. A report counts if all of these hold:
+///
+/// - Nothing in it is at fault.
+/// - It is about the order as it was sent.
+/// - The vehicle knows where it is, on the map of its order, and is under the control of the fleet.
+///
+/// Without such a report, the request's progress holds, except for the goals that are served. What a vehicle
+/// says about its actions is true wherever it is, and opens no gates.
 class OrderTracker {
  public:
   /// `state`: null if it has not reported.
   OrderTracker(const VdaRequest& request, std::size_t robot, const VehicleState* state, core::Work& work);
 
-  /// It has an order, or will have as soon as the message arrives.
+  /// Whether it has an order, or will have one as soon as the message arrives.
   bool has_order() const { return progress_.order_id && end_ == OrderEnd::none; }
   /// Why it has none any more.
   OrderEnd end() const { return end_; }
   /// It knows the last message.
   bool has_accepted() const { return has_order() && is_up_to_date(); }
-  /// It has done all that the plan has for it.
+  /// Whether it has done everything that its plan contains.
   bool has_arrived() const;
-  /// The place that it has reached; never before that of the request.
+  /// The place that it has reached; never before the place in the request.
   core::ActionPlace place() const;
-  /// The number of goals, the first ones, that are served.
+  /// How many of its goals are served; these are its first goals.
   std::size_t served() const { return served_; }
-  /// The place from which on a plan has to go on: behind the goals that are served, but not beyond one whose
-  /// actions have failed.
+  /// The place from which on a plan has to go on. It is after the goals that are served, but not after a goal
+  /// whose actions have failed.
   core::ActionPlace place_to_plan_from(const core::ActionPlace& place) const;
-  /// The place that the vehicle may go to, its actions there included; not before `place`.
+  /// The place that the vehicle may go to, including its actions there; not before `place`.
   core::ActionPlace released(const core::ActionPlace& place) const;
   const std::vector<FailedAction>& failed_actions() const { return failed_; }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// The actions of a robot as the nodes and edges of a VDA 5050 order, and which of the nodes the vehicle may
-// pass: dependencies become releases of nodes.
+// The actions of a robot as the nodes and edges of a VDA 5050 order, and the nodes that the vehicle may pass.
+// Dependencies become releases of nodes.
 
 #include <cstddef>
 #include <cstdint>
@@ -58,18 +58,20 @@ struct Route {
 };
 
 /// Returns the route of a robot. There is a node wherever the robot stops or turns, and at each of the `cuts`
-/// (ascending, see place_of) within a translation. Waits that only give way are left out: passage is by
-/// release. A robot that has to assume two headings in one place, for two goals, has two nodes there, and so
-/// has one that is served where its first node is known.
+/// (ascending, see place_of) within a translation. Waits that only give way are left out: releases decide who
+/// passes first.
+///
+/// A place has two nodes if the robot has to assume two headings in it, for two goals. It also has two nodes
+/// if the robot is served where its first node is known.
 Route route_of(const core::Robot& robot, core::Actions actions, const std::vector<core::ActionPlace>& cuts,
                double wait_before_move, const RouteStart& start = {});
 
-/// Adds points to those of a robot, so that no translation takes longer than so many seconds from one to the
-/// next. Ends early when `work` is met.
+/// Adds points to the points of a robot, so that a translation never takes longer than so many seconds from
+/// point to point. Ends early when `work` is met.
 std::vector<core::ActionPlace> with_points_within(double seconds, std::vector<core::ActionPlace> points,
                                                   core::Actions actions, core::Work& work);
 
-/// A robot may not pass a place before another one has reached its own.
+/// A robot may not pass a place before another robot has reached a place of its own.
 struct Gate {
   std::size_t robot = 0;
   core::ActionPlace place;
@@ -77,31 +79,33 @@ struct Gate {
   core::ActionPlace until;
 };
 
-/// Returns the gates of dependencies. Those within translations are a little earlier, and the places that
-/// open them a little later, so that robots that stand at such places are a little further from each other
-/// than dependencies ask: by a quarter of the slack each, which keeps their order in time, and by a
-/// centimetre at most.
+/// Returns the gates of dependencies. Gates within translations are a little earlier, and the places that
+/// open them a little later. So robots that stand at such places are a little farther from each other than
+/// dependencies require. Each is moved by a quarter of the slack, which keeps their order in time, and by at
+/// most a centimetre.
 std::vector<Gate> gates_of(const std::vector<core::Dependency>& dependencies,
                            const std::vector<core::Actions>& actions);
 
-/// Returns the places of gates, and those that open them, by robot, ascending and each once.
+/// Returns the places of gates, and the places that open them, by robot; ascending and each once.
 std::vector<std::vector<core::ActionPlace>> points_of(const std::vector<Gate>& gates, std::size_t robots);
 
-/// Returns by robot the first gate that is closed when every robot has reached the place of its progress; a
-/// place that no robot reaches, if all are open.
+/// Returns, by robot, the first gate that is closed when every robot has reached the place of its progress.
+/// If all gates are open, returns a place that no robot reaches.
 std::vector<core::ActionPlace> closed_gates(const std::vector<Gate>& gates,
                                             const std::vector<core::ActionPlace>& progress);
 
-/// Returns how many nodes of a route, the first ones, come before or at the gate that is `closed`. At least
-/// the first node is released.
+/// Returns how many of the first nodes of a route come before or at the gate that is `closed`. At least the
+/// first node is released.
 ///
-/// No robots wait for each other for ever, although they report nodes only: there is a node at each gate and
-/// each `until` within a translation; standing robots occupy the same place, so a gate within a stand acts
-/// where it ends, and an `until` there is reported with the next node, which is no later than the next gate.
+/// Robots never wait for each other for ever, although they report only nodes:
+///
+/// - There is a node at each gate and each `until` within a translation.
+/// - Standing robots occupy the same place, so a gate within a stand acts where the stand ends.
+/// - An `until` within a stand is reported with the next node, which is no later than the next gate.
 std::size_t released_nodes(const Route& route, const core::ActionPlace& closed);
 
-/// Returns how many nodes of a route, the first ones, the plan reaches within so many seconds from the
-/// progress on, and the next one in any case.
+/// Returns how many of the first nodes of a route the plan reaches within so many seconds after the progress.
+/// The next node is always included.
 std::size_t nodes_within(double seconds, const Route& route, core::Actions actions,
                          const core::ActionPlace& progress);
 

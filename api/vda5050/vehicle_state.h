@@ -1,7 +1,7 @@
 #pragma once
 
-// State messages of VDA 5050 2.0 to 3.0. Each is judged alone: one that has faults does not count, and is
-// told.
+// State messages of VDA 5050 2.0 to 3.0. Each message is judged alone. A message with faults does not count,
+// and its faults are told.
 
 #include <cstdint>
 #include <optional>
@@ -16,13 +16,13 @@
 
 namespace fleetplan::api {
 
-/// Who is in control of a vehicle, by its operating mode.
+/// Who controls a vehicle, by its operating mode.
 enum class Control : std::uint8_t {
   fleet,     // AUTOMATIC, SEMIAUTOMATIC
   operators  // any other mode
 };
 
-/// A state message of a vehicle, as far as it matters here. Texts are those of the body.
+/// A state message of a vehicle, with the members that matter here. Texts refer to the body.
 struct VehicleState {
   bool is_readable = false;   // it has no faults; otherwise what follows may be incomplete
   std::string_view order_id;  // empty: it has had no order
@@ -60,7 +60,8 @@ struct VehicleReports {
   FaultList of_strangers;  // faults of messages whose sender is no robot
 };
 
-/// Reads `messages`. Of several of one vehicle, the newest counts. Their faults are none of the document.
+/// Reads `messages`. If a vehicle has several, the newest counts. Their faults are not faults of the
+/// document.
 VehicleReports parse_reports(const JsonReader& member, const VdaRequest& request);
 
 }  // namespace fleetplan::api

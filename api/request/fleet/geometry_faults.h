@@ -28,8 +28,8 @@ class NearestGoals {
                std::size_t robots, double inflation, const WorldFrame& frame, const core::StopCondition& stop)
       : inflation_(inflation), maps_(std::move(map), zones, robots, stop), places_(frame.origin, stop) {}
 
-  /// Returns the nearest place that fits for a fault of the kind goal_in_obstacle, inflation included; none
-  /// if none is found. `goal` is where the goal is. Both are in the map frame.
+  /// Returns the nearest place that fits, inflation included, for a fault of the kind goal_in_obstacle. None
+  /// if no place is found. `goal` is the position of the goal. Both are in the map frame.
   std::optional<core::Position> of(const core::ProblemFault& found, const core::Position& goal);
 
  private:
@@ -45,21 +45,22 @@ struct GeometryFault {
   std::string detail;
 };
 
-/// Returns the words for a pose that a robot cannot have, because of an obstacle. `zones` are those of the
+/// Returns the text for a pose that a robot cannot have because of an obstacle. `zones` belong to the
 /// problem, whose map is `grid`.
 std::string describe_pose(const core::ProblemFault& found, const JsonReader& pose, const core::Robot& robot,
                           double inflation, const std::vector<core::Zone>& zones,
                           const core::OccupancyGrid& grid, const WorldFrame& frame, NearestGoals& nearest);
 
-/// Returns the words for a fault. `indices` are those of the problem's robots in the fleet, whose map is
-/// `grid`.
+/// Returns the text for a fault. `indices`: for each of the problem's robots, its index in the fleet. `grid`:
+/// the fleet's map.
 GeometryFault describe(const core::ProblemFault& found, const Fleet& fleet,
                        const std::vector<std::size_t>& indices, const core::OccupancyGrid& grid,
                        NearestGoals& nearest);
 
-/// Returns a sentence about one mistake that explains all of the faults, or nothing if none does: the map or
-/// the poses are upside down, or radii are diameters. Looks at each pose twice at most, and ends at the first
-/// one that contradicts; so it costs no more than the check that found the faults. Ends with `stop`.
+/// Returns a sentence about one mistake that explains all faults, or nothing if there is none. For example,
+/// the map or the poses are upside down, or radii are diameters. Looks at each pose at most twice, and ends
+/// at the first pose that contradicts. So it costs no more than the check that found the faults. Ends with
+/// `stop`.
 std::string common_cause(const core::ProblemFaults& faults, const Fleet& fleet,
                          const std::vector<std::size_t>& indices, const core::StaticMap& map,
                          const core::StopCondition& stop);

@@ -17,45 +17,46 @@
 namespace fleetplan::api {
 
 /// Reads one action, in the world and with its headings as given. Values with a fault are 0. A profile has
-/// its speeds only, until the robot is known.
+/// only its speeds until the robot is known.
 core::Action parse_action(const JsonReader& item, const Range& times);
 
 /// Returns the action in the map frame, with normalised headings.
 core::Action to_map(const core::Action& world, const WorldFrame& frame);
 
-/// The robot that executes actions, as far as it is known; what could not be read is not compared.
+/// The robot that executes actions, as far as it is known. Parts that could not be read are not compared.
 struct ActionsOwner {
   const core::Robot& robot;             // its accelerations and its goals are known
   std::optional<core::Pose> start;      // in the map frame
   std::optional<double> linear_speed;   // metres per second
   std::optional<double> angular_speed;  // radians per second
   std::optional<bool> may_reverse = {};
-  /// The first so many actions may be measured motion, which has no profiles.
+  /// The number of first actions that may be measured motion, which has no profiles.
   std::size_t measured = std::numeric_limits<std::size_t>::max();
-  const std::vector<core::OpenGoal>* open = nullptr;  // those of its goals that are open; null: none
+  const std::vector<core::OpenGoal>* open = nullptr;  // its goals that are open; null: none
 };
 
-/// The actions of a robot from t = 0 in its start. Each begins exactly when and where the one before ends.
+/// The actions of a robot from t = 0 in its start. Each begins exactly when and where the previous action
+/// ends.
 struct ParsedActions {
   std::vector<core::Action> actions;  // in the map frame
   ReceivedMotion received;
 };
 
 /// Reads `committed` or `previous` of a robot. Actions that are not contiguous in time and space, contradict
-/// their types or are faster than the robot are faults; then none are returned.
+/// their types or are faster than the robot are faults. Then no actions are returned.
 std::optional<ParsedActions> parse_actions(const JsonReader& list, const ActionsOwner& owner,
                                            const WorldFrame& frame);
 
-/// Joins the actions of a robot one after the other, in the map frame, and reports those that do not fit.
+/// Joins the actions of a robot one after the other, in the map frame, and reports actions that do not fit.
 /// Differences up to core::kContactTolerance (metres, seconds, radians) are accepted and removed, so that the
 /// core gets actions without gaps.
 class ActionChain {
  public:
   explicit ActionChain(const ActionsOwner& owner);
 
-  /// Returns the action as it goes on from the one before. Faults are reported at `item`.
+  /// Returns the action as it continues the previous action. Faults are reported at `item`.
   core::Action append(core::Action action, const JsonReader& item);
-  /// Skips an action that could not be read: what follows it is not compared with what precedes it.
+  /// Skips an action that could not be read. The actions before and after it are not compared.
   void skip();
   bool ends_at_rest() const { return speed_.value_or(0.0) <= core::kContactTolerance; }
 

@@ -1,7 +1,10 @@
 #pragma once
 
-// The plans of a request, and what belongs to them: dependencies, unavoidable collisions, which the check
-// exempts, and robots that an answer calls invalid.
+// The plans of a request, and what belongs to them:
+//
+// - dependencies,
+// - unavoidable collisions, which the check exempts,
+// - and robots that an answer calls invalid.
 
 #include <vector>
 
@@ -16,20 +19,21 @@ namespace fleetplan::api {
 
 struct Fleet;
 
-/// Reads the member `plans` of a request to validate: at most one for each robot, in any order. The checker
-/// decides later whether the plans are valid. Open goals of the robots get the poses that the visits of the
-/// plans name, or else those at which the actions serve them first, of the plan or, without one, the
-/// committed ones.
+/// Reads the member `plans` of a request to validate: at most one plan for each robot, in any order. The
+/// checker decides later whether the plans are valid.
+///
+/// Open goals get the poses that the visits of the plans name. Otherwise, they get the poses at which the
+/// actions serve them first: the actions of the plan, or the committed actions if there is no plan.
 std::vector<core::RobotPlan> parse_plans(const JsonReader& member, std::vector<ParsedRobot>& robots,
                                          const WorldFrame& frame);
 
-/// Reports profiles of plans that do not lead over their actions in their times. `list`: the member that the
+/// Reports profiles of plans that do not cover their actions in their times. `list`: the member that the
 /// plans come from, in their order.
 void check_profiles(const JsonReader& list, const std::vector<core::RobotPlan>& plans);
 
-/// Reads `dependencies`: those that the service has made for these plans. Robots and actions that do not
-/// exist, and times that contradict the plans, are faults. Whoever obeys dependencies without a fault never
-/// waits for ever, because every `until` is planned before its `gate`.
+/// Reads `dependencies`, which the service has made for these plans. Robots and actions that do not exist,
+/// and times that contradict the plans, are faults. Robots that obey dependencies without a fault never wait
+/// for ever, because every `until` is planned before its `gate`.
 std::vector<core::Dependency> parse_dependencies(const JsonReader& member,
                                                  const std::vector<core::Robot>& robots,
                                                  const std::vector<core::RobotPlan>& plans);
@@ -37,8 +41,7 @@ std::vector<core::Dependency> parse_dependencies(const JsonReader& member,
 /// Reads `unavoidable` of a request to validate (may be absent): the collisions that the check exempts.
 std::vector<core::UnavoidableCollision> parse_unavoidable(const JsonReader& member, const Fleet& fleet);
 
-/// Makes the robots invalid that `unplanned` of an answer lists as such. Whatever else it contains is
-/// ignored.
+/// Marks the robots as invalid that `unplanned` of an answer lists as invalid. Other contents are ignored.
 void mark_invalid_robots(const JsonReader& unplanned, std::vector<core::Robot>& robots);
 
 }  // namespace fleetplan::api

@@ -18,42 +18,42 @@
 
 namespace fleetplan::api {
 
-/// The goals of a robot that are valid, in their order, in the map frame.
+/// The valid goals of a robot, in their order, in the map frame.
 struct ParsedGoals {
   std::vector<core::Goal> goals;
   std::vector<JsonReader> places;  // place of each goal
-  /// Whether they are given as a list, or with a service, a radius or metadata: then the answer tells when
+  /// Whether they are given as a list, or with a service, a radius or metadata. Then the answer tells when
   /// each is visited.
   bool lists_visits = false;
   std::vector<GoalTexts> texts;  // by goal; shorter if the last ones have none
-  /// The goals that are served at one of several poses or near their own, ascending. They have the pose that
-  /// is told, or the first one, in `goals`.
+  /// The goals that are served at one of several poses or near their own pose, ascending. In `goals`, they
+  /// have the pose that is told, or the first one.
   std::vector<core::OpenGoal> open;
 };
 
-/// Reads `x`, `y` and `theta` (optional) of a pose whose members are known. Returns none when one has a
+/// Reads `x`, `y` and `theta` (optional) of a pose whose members are known. Returns none if any of them has a
 /// fault.
 std::optional<core::Goal> parse_pose(const JsonReader& pose, const WorldFrame& frame);
 
 /// Reads a pose that has no other members.
 std::optional<core::Goal> parse_plain_pose(const JsonReader& pose, const WorldFrame& frame);
 
-/// Reads `place`, which may be absent or null, of a goal with a tolerance, which takes it.
+/// Reads `place` of a goal with a tolerance, and sets it. `place` may be absent or null.
 void parse_place(const JsonReader& member, const WorldFrame& frame, core::OpenGoal& open);
 
-/// Reads `goal` or `goals` of a robot. Without both, or with an empty list, there are none. `quota` limits
-/// the goals of the request, and the poses of `any_of`.
+/// Reads `goal` or `goals` of a robot. Without both, or with an empty list, there are no goals. `quota`
+/// limits the goals of the request, and the poses of `any_of`.
 ParsedGoals parse_goals(const JsonReader& robot, const WorldFrame& frame, Quota& quota);
 
-/// Loads change the accelerations of robots that have some; of others, they are faults. `goals`: the places
-/// of the goals of the robot.
+/// Reports loads that change accelerations, unless the robot has accelerations. `goals`: the places of the
+/// goals of the robot.
 void check_loads(const std::vector<JsonReader>& goals, const core::Robot& robot);
 
-/// What a robot does that has no goal, or has served its last one.
+/// What a robot does without a goal, or after its last goal.
 enum class Idle : std::uint8_t { stay, yield, come_back };
 
-/// A robot as far as it could be read. `placed`: whether its radius and start are valid, so that it can be
-/// compared with the map and the other robots, whatever faults it has elsewhere.
+/// A robot as far as it could be read. `placed`: whether its radius and start are valid. Then it can be
+/// compared with the map and the other robots, in spite of faults elsewhere.
 struct ParsedRobot {
   core::Robot robot;  // in the map frame; goals and actions only if they are valid
   bool placed = false;
@@ -70,19 +70,20 @@ struct ParsedRobot {
   std::string metadata;                    // see parse_metadata
   std::optional<double> execution_margin;  // metres
   double stop_distance = 0.0;              // metres that it drives until it stands, see /v1/advance
-  std::optional<double> body_radius = {};  // metres, of the robot itself, if it is planned with another one
-  /// If given; what it means for the plan is in the goals of the robot.
+  std::optional<double> body_radius = {};  // metres, the robot's own radius, if it is planned with another
+                                           // radius
+  /// Set if it is given. The goals of the robot say what it means for the plan.
   std::optional<Idle> idle = {};
   bool returns_to_start = false;  // its goal is that it comes back, and not given
 };
 
-/// Reads `robots` and `robot_defaults` (may be absent): at least one robot, and not more robots, goals and
-/// actions than the limits allow. `ids` gets those of the robots.
+/// Reads `robots` and `robot_defaults` (may be absent). There must be at least one robot, and not more
+/// robots, goals and actions than the limits allow. `ids` receives the ids of the robots.
 std::vector<ParsedRobot> parse_robots(const JsonReader& robots, const JsonReader& defaults,
                                       const WorldFrame& frame, const Limits& limits, UniqueIds& ids);
 
-/// Reads the robot of a request about one robot: its traits, and nothing of where it is. `id` is optional.
-/// Returns none when one has a fault.
+/// Reads the robot of a request about one robot: its traits, but no position. `id` is optional. Returns none
+/// if any trait has a fault.
 std::optional<core::Robot> parse_lone_robot(const JsonReader& robot);
 
 /// The robots of a request by their ids.
@@ -92,7 +93,7 @@ class RobotNames {
   explicit RobotNames(const std::vector<core::Robot>& robots, std::string_view place = "robots");
   explicit RobotNames(const std::vector<ParsedRobot>& robots, std::string_view place = "robots");
 
-  /// Returns the index of the robot whose id the value is. Anything else is a fault.
+  /// Returns the index of the robot whose id is the value. Anything else is a fault.
   std::optional<std::size_t> find(const JsonReader& id) const;
   /// Returns the index of the robot of this id, if there is one.
   std::optional<std::size_t> index_of(std::string_view id) const;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Masks of zones: images that are read as the filters of Nav2 read them.
+// Masks of zones: images that are read in the same way as by the filters of Nav2.
 
 #include <cstddef>
 #include <string>
@@ -14,14 +14,14 @@
 
 namespace fleetplan::api {
 
-/// Cells of a mask that have the same value, as a rectangle in the map frame.
+/// Cells of a mask with the same value, as a rectangle in the map frame.
 struct MaskPart {
   double speed_share = 1.0;  // of masks of speeds: share of the robot's own speed
   std::vector<core::Position> polygon;
 };
 
-/// Masks of a request that may not mean what they are read as: how many, and the first of them. There may be
-/// as many as zones, so each kind has one warning.
+/// Masks of a request that may mean something else than what is read: how many, and the first of them. There
+/// may be as many as zones, so each kind has only one warning.
 class MaskNotes {
  public:
   void add_changed_pixels(const std::string& zone, std::size_t pixels);
@@ -45,11 +45,13 @@ class MaskNotes {
 
 enum class MaskKind { blocked, speed };
 
-/// Reads `mask`: an image in its own frame, or a pixel for each cell of the map. Of a blocked mask, the parts
-/// are the cells that are occupied by the thresholds of map_server; of a mask of speeds, those of 1 to 100 %
-/// that limit the speed. Parts overlap by far less than a cell, so that nothing lies between them; those off
-/// the map are left out. Returns none when the mask has a fault. All parts of a request take their corners
-/// from the quota. `zone` names the zone in `notes`.
+/// Reads `mask`: an image in its own frame, or a pixel for each cell of the map. The parts of a blocked mask
+/// are the cells that are occupied by the thresholds of map_server. The parts of a mask of speeds are the
+/// cells of 1 to 100 %, which limit the speed.
+///
+/// Parts overlap by far less than a cell, so that there are no gaps between them. Parts off the map are left
+/// out. Returns none if the mask has a fault. All parts of a request take their corners from the quota.
+/// `zone` names the zone in `notes`.
 std::vector<MaskPart> parse_mask(const JsonReader& member, const WorldMap& map, MaskKind kind,
                                  const Limits& limits, Quota& corners, const std::string& zone,
                                  MaskNotes& notes);

@@ -1,7 +1,7 @@
 #pragma once
 
-// Images of maps, from the text of the request to the raster: reads their pixels row by row, and makes
-// occupancy of them as map_server of ROS 2 does (nav2_map_server/src/map_io.cpp).
+// Images of maps, from the text of the request to the raster. Pixels are read row by row. They become
+// occupancy in the same way as in map_server of ROS 2 (nav2_map_server/src/map_io.cpp).
 
 #include <array>
 #include <cstddef>
@@ -29,7 +29,7 @@ struct ImageHeader {
   bool has_alpha() const { return channels == 2 || channels == 4; }
 };
 
-/// Reads the pixels of an image row by row, from the top. The bytes have to outlive it.
+/// Reads the pixels of an image row by row, from the top. The bytes must outlive it.
 class ImageReader {
  public:
   using Row =
@@ -37,7 +37,7 @@ class ImageReader {
 
   virtual ~ImageReader() = default;
   const ImageHeader& header() const { return header_; }
-  /// Returns the next row, of which there must be one, or why it cannot be read, in a sentence.
+  /// Returns the next row, or why it cannot be read, as a sentence. A next row must exist.
   virtual Result<Row, std::string> next_row() = 0;
 
  protected:
@@ -64,8 +64,8 @@ std::optional<ImageFault> size_fault(std::uint64_t columns, std::uint64_t rows, 
 OpenedImage open_pgm(std::span<const std::uint8_t> bytes, std::int64_t max_pixels);
 
 /// Opens a PNG of at most `max_pixels`. Palettes, grays of fewer than 8 bits and transparent colours are
-/// expanded. Whatever is not needed for the pixels, or follows them, stays unread. `work` ends the reading,
-/// with any result.
+/// expanded. Everything that is not needed for the pixels, or follows them, stays unread. When `work` is met,
+/// reading ends with any result.
 OpenedImage open_png(std::span<const std::uint8_t> bytes, std::int64_t max_pixels, core::Work& work);
 
 inline constexpr std::int8_t kUnknownOccupancy = -1;
@@ -92,11 +92,11 @@ inline constexpr std::int8_t kFullOccupancy = 100;  // percent
 
 enum class ShadeMode { trinary, scale, raw };
 
-/// The release of ROS 2 whose map_server reads an image: that of Jazzy (from 1.3.7), Kilted and Lyrical, or
-/// that of Humble and those before.
+/// The release of ROS 2 whose map_server reads an image. `jazzy`: Jazzy (from 1.3.7), Kilted and Lyrical.
+/// `humble`: Humble and older releases.
 enum class Release { jazzy, humble };
 
-/// The members of a map.yaml that say what a shade means.
+/// The members of a map.yaml that define what a shade means.
 struct ShadeRule {
   ShadeMode mode = ShadeMode::trinary;
   bool negate = false;            // white is occupied
@@ -135,15 +135,17 @@ using Meanings = std::array<std::int8_t, kFullOccupancy - kUnknownOccupancy + 1>
 struct DecodedImage {
   Raster raster;
   ShadeRule rule;
-  /// Pixels that mean something else with Humble, as long as the image names no release.
+  /// The number of pixels that mean something else with Humble. Only counted if the image names no release.
   std::size_t changed = 0;
   std::size_t free_unknown = 0;  // pixels of kUnknownGray that are free in the mode trinary
 };
 
-/// Returns the occupancy that map_server of ROS publishes for an image: `pgm` or `png`, in base64, the
-/// members of its map.yaml that give shades a meaning (see ShadeRule), and `release`. The image has at most
-/// `max_pixels`, which is checked before they are decoded. Returns none when it has a fault, or when the
-/// reading of the document is stopped. Does not look at other members.
+/// Returns the occupancy that map_server of ROS publishes for an image. The members are `pgm` or `png`, in
+/// base64, the members of its map.yaml that give shades a meaning (see ShadeRule), and `release`. Other
+/// members are ignored.
+///
+/// The image may have at most `max_pixels`, which is checked before they are decoded. Returns none if it has
+/// a fault, or if the reading of the document is stopped.
 std::optional<DecodedImage> decode_image(const JsonReader& image, std::int64_t max_pixels,
                                          const Meanings& meanings);
 
