@@ -25,9 +25,11 @@
 
 namespace fleetplan::server {
 
-/// The service on its main port, and on the admin port if one is set, whose connections have their own
-/// threads. Construct, bind, run (in a thread of its own). To end: announce_end, begin_drain, wait until
-/// idle, cancel_jobs if that takes too long, stop. All but bind and run may be called from any thread.
+/// The service on its main port, and on the admin port if one is set. The connections of the admin port have
+/// their own threads. Construct, bind, run (in a separate thread).
+///
+/// To end: announce_end, begin_drain, wait until idle, cancel_jobs if that takes too long, stop. All
+/// functions except bind and run may be called from any thread.
 class HttpServer {
  public:
   HttpServer(const Settings& settings, Service service);
@@ -44,17 +46,17 @@ class HttpServer {
   /// Serves until stop(). Call it after bind().
   void run();
 
-  /// Sets a function that is called when a port cannot accept connections any more; call this before run().
-  /// Connections that are open are still served.
+  /// Sets a function that is called when a port cannot accept connections any more. Call this before run().
+  /// Open connections are still served.
   void on_failure(std::function<void()> call) { on_failure_ = std::move(call); }
 
   /// Whether a port cannot accept connections any more.
   bool failed() const { return failed_; }
 
-  /// Makes /readyz answer 503 from now on; everything is still served.
+  /// Makes /readyz answer 503 from now on. Everything is still served.
   void announce_end() { ready_ = false; }
 
-  /// Makes /readyz answer 503, and refuses new jobs; those that were accepted continue.
+  /// Makes /readyz answer 503, and refuses new jobs. Accepted jobs continue.
   void begin_drain() {
     ready_ = false;
     draining_ = true;
@@ -65,7 +67,7 @@ class HttpServer {
   /// Whether no request of the main port is being read, computed or answered.
   bool idle() const { return main_.exchanges == 0; }
 
-  /// Requests a stop of all jobs, now and later, and ends waiting for requests that are still being sent.
+  /// Requests a stop of all jobs, now and later. Also stops waiting for requests that are still being sent.
   void cancel_jobs();
 
   /// Ends run() once requests under way are answered.

@@ -25,10 +25,10 @@ struct Backend {
   std::function<std::string()> metrics_text = {};
 };
 
-/// Returns the routes of the main port. The backend has to outlive the routes, here and below.
+/// Returns the routes of the main port. The backend must outlive the routes, here and below.
 RouteTable main_routes(const Backend& backend);
 
-/// Returns the routes of the admin port: some of the main port's.
+/// Returns the routes of the admin port, which are some of the main port's routes.
 RouteTable admin_routes(const Backend& backend);
 
 }  // namespace fleetplan::server

@@ -1,7 +1,10 @@
 #pragma once
 
-// The program without a server: its commands, what they read and write, their faults of input and exit codes,
-// requests from files of ROS, and the probe of a server that runs.
+// The program without a server:
+//
+// - its commands, their input and output, faults of input, and exit codes,
+// - requests from files of ROS,
+// - and the probe of a running server.
 
 #include <cstddef>
 #include <functional>
@@ -39,7 +42,7 @@ struct InputFault {
   std::string line;
 };
 
-/// Makes a fault. `line` is that of the file, from 1; 0: the file as a whole.
+/// Makes a fault. `line`: the line in the file, from 1; 0: the file as a whole.
 InputFault input_fault(const std::string& file, std::size_t line, const std::string& detail);
 
 /// Reads all of a file, or of `in` for "-". A file of more than `max_bytes` is not read to its end.
@@ -53,27 +56,28 @@ std::string shown_name(const std::string& file);
 /// Writes the text to a file. Returns whether all of it was written.
 bool write_file(const std::string& name, const std::string& text);
 
-/// Writes what a command is asked for to a file, or to the standard output if the name is empty. Returns the
-/// exit code.
+/// Writes the result of a command to a file, or to the standard output if the name is empty. Returns the exit
+/// code.
 int write_output(const std::string& name, const std::string& text, const Streams& streams);
 
 /// Reports why a command fails; returns the exit code.
 int fail(const Streams& streams, int code, const std::string& message);
 
-/// Reads a finite number with a point, such as "-1.5e3" or "+2"; none if the text is anything else.
+/// Reads a finite number with a point, such as "-1.5e3" or "+2". None if the text is anything else.
 std::optional<double> read_number(std::string_view text);
 
 /// Runs `fleetplan COMMAND ...`, which answers one request from a file as the service would over HTTP.
-/// Returns the exit code, or nothing if the arguments name no command: then they are settings of the server.
-/// `make_service` is called only if the command needs the service.
+/// Returns the exit code. Returns nothing if the arguments name no command: then they are settings of the
+/// server. `make_service` is called only if the command needs the service.
 std::optional<int> run_command(std::vector<std::string> arguments,
                                const std::function<Service()>& make_service, const Streams& streams);
 
-/// Requests /healthz of the service that runs with these settings, perhaps in another process: on the admin
-/// port if there is one, which answers however busy the main port is. Returns the fault, if there is one.
+/// Requests /healthz of the service that runs with these settings, perhaps in another process. It uses the
+/// admin port if there is one, because this port answers even if the main port is busy. Returns the fault, if
+/// there is one.
 ///
-/// The probe is for liveness, not readiness: restarting a container because it drains or its queue is full
-/// would lose its running plans.
+/// The probe is for liveness, not readiness. If a container were restarted because it drains or its queue is
+/// full, it would lose its running plans.
 std::optional<std::string> health_fault(const Settings& settings);
 
 /// A map.yaml of ROS and its image.
@@ -85,12 +89,12 @@ struct RosMapFile {
   std::vector<std::string> ignored;                       // lines for people about members without effect
 };
 
-/// Reads both files as map_server does: the image beside the yaml, unless its path is absolute. Does not look
-/// at whether the image can be decoded.
+/// Reads both files in the same way as map_server. The image is beside the yaml, unless its path is absolute.
+/// Does not check whether the image can be decoded.
 api::Result<RosMapFile, InputFault> read_ros_map(const std::string& yaml, std::istream& in);
 
 /// `fleetplan map2request`: writes a request of /v1/plan for a map of ROS and a table of robots. Refuses what
-/// the service would, with the file and the line of each fault. Returns the exit code.
+/// the service would refuse, with the file and the line of each fault. Returns the exit code.
 int map_to_request(const std::string& yaml, const std::string& robots, const std::string& output,
                    const api::Limits& limits, const Streams& streams);
 

@@ -19,7 +19,7 @@
 
 namespace fleetplan::server {
 
-/// A flag that threads waiting in poll() can see: its descriptor stays readable once raised.
+/// A flag that threads can wait for in poll(): its descriptor stays readable once it is raised.
 class StopSignal {
  public:
   StopSignal() : fd_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
@@ -53,7 +53,7 @@ struct ConnectionContext {
   std::function<Sent(Exchange&)> answer;  // answers a request that passed all steps
 };
 
-/// Counts something as under way as long as it lives.
+/// Counts something as under way during its lifetime.
 class UnderWay {
  public:
   explicit UnderWay(std::atomic<std::size_t>& count) : count_(count) { ++count_; }
@@ -65,11 +65,11 @@ class UnderWay {
   std::atomic<std::size_t>& count_;
 };
 
-/// One client's connection: reads its requests strictly and takes each through the steps. Sends the answers
-/// that need no handler itself.
+/// One client's connection. It reads its requests strictly and takes each through the steps. It sends the
+/// answers that need no handler itself.
 ///
-/// It never waits for the client: where it would have to, it returns, and goes on once there is something to
-/// do. So a client that is idle or slow, in either direction, occupies no thread.
+/// It never waits for the client. Where it would have to wait, it returns, and goes on once there is
+/// something to do. So a client that is idle or slow, in either direction, occupies no thread.
 class Connection {
  public:
   using Clock = Socket::Clock;
@@ -85,11 +85,11 @@ class Connection {
   /// Takes the socket over.
   Connection(int fd, ConnectionContext context);
 
-  /// Goes on until it has to wait, and returns what for; none if it is over, because the client left, was
-  /// idle for too long, or the server stops. Call it from one thread at a time.
+  /// Goes on until it has to wait, and returns what it waits for. Returns none if it is over: the client left
+  /// or was idle for too long, or the server stops. Call it from one thread at a time.
   std::optional<Wait> go_on();
 
-  /// Returns what go_on() has returned; before the first time, what has to happen first.
+  /// Returns the last result of go_on(). Before the first call, returns what has to happen first.
   Wait wait() const;
 
   int fd() const { return socket_.fd(); }
@@ -98,8 +98,7 @@ class Connection {
   enum class Phase { idle, head, body, sending, dropping, lingering, over };
   enum class Input { some, nothing, end, timeout, stopped };
 
-  // The functions below continue their phase. They return true to go on with the phase that follows, false to
-  // wait.
+  // The functions below continue their phase. They return true to go on with the next phase, false to wait.
   bool idle();
   bool head();
   bool body();
@@ -135,7 +134,8 @@ class Connection {
   std::optional<UnderWay> under_way_;
   HeadScanner scanner_;
   std::size_t empty_line_bytes_ = 0;  // bytes of empty lines before the request
-  std::optional<BodyReader> body_;    // body of the exchange; later that of a refused one, to be dropped
+  std::optional<BodyReader> body_;    // body of the exchange; later the body of a refused exchange, to be
+                                      // dropped
   std::uint64_t body_bytes_ = 0;      // bytes of the body when the deadline was set
   Sent sent_;
   std::optional<WritePatience> write_patience_;

@@ -9,13 +9,13 @@
 
 namespace fleetplan::server {
 
-/// The adapter to cpp-httplib, which binds a port, and writes the answers of handlers to requests that have
-/// been read, judged and routed.
+/// The adapter to cpp-httplib. It binds a port, and writes the answers of handlers to requests that have been
+/// read, judged and routed.
 ///
 /// Construct, bind, then answer.
 class HttplibAdapter {
  public:
-  /// The parts that the adapter works with. References have to outlive it.
+  /// The parts that the adapter works with. References must outlive it.
   struct Context {
     std::string host;
     int port;  // 0: any free one

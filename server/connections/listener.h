@@ -21,7 +21,7 @@
 
 namespace fleetplan::server {
 
-/// The threads of requests: one for every request that is being read or answered, up to a limit beyond which
+/// The threads of requests: one thread for every request that is being read or answered. Beyond a limit,
 /// requests wait. Threads are started on demand and end when they have been idle for a while.
 class RequestThreads {
  public:
@@ -60,15 +60,15 @@ enum class AcceptFault {
   broken,           // the listening socket is not one, or no longer
 };
 
-/// Returns what the error number means that accept() has set (accept(2)).
+/// Returns what the error number of accept() means (accept(2)).
 AcceptFault accept_fault(int error);
 
 /// Accepts a connection on a listening socket that does not block. Returns its descriptor, which is closed on
-/// exec and sends small answers at once; or -1 with errno set.
+/// exec and sends small answers at once. Returns -1 with errno set if it fails.
 int accept_connection(int listening_fd);
 
-/// Accepts the connections of a port and keeps those that wait for their clients, with one thread for all of
-/// them (epoll). A connection that can go on gets a thread until it has to wait again.
+/// Accepts the connections of a port. Keeps the connections that wait for their clients, with one thread for
+/// all of them (epoll). A connection that can go on gets a thread until it has to wait again.
 class Listener {
  public:
   struct Context {
@@ -100,7 +100,7 @@ class Listener {
   using Clock = Connection::Clock;
   using Id = std::uint64_t;
 
-  /// A connection. While it waits for its client it is `parked`; otherwise a thread has it.
+  /// A connection. It is `parked` while it waits for its client. Otherwise, a thread has it.
   struct Held {
     std::unique_ptr<Connection> connection;
     std::optional<Connection::Wait> parked = std::nullopt;
@@ -112,7 +112,7 @@ class Listener {
   void accept_again(int listening_fd);
   void end_accepting(int listening_fd);
 
-  /// Closes the connection whose client has let it wait longest. Returns false if none waits.
+  /// Closes the connection that has waited for its client longest. Returns false if none waits.
   bool make_room();
   void add(int fd);
 

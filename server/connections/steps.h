@@ -33,7 +33,7 @@
 
 namespace fleetplan::server {
 
-/// The steps of one port. What it refers to has to outlive it. Thread-safe.
+/// The steps of one port. Everything it refers to must outlive it. Thread-safe.
 class Steps {
  public:
   enum class Port { main, admin };
@@ -44,7 +44,7 @@ class Steps {
   /// Makes steps 1 to 3, once the head has been read.
   void begin(Exchange& exchange) const;
 
-  /// Makes steps 4 to 11. Returns an answer that needs no handler; none when the request may go on.
+  /// Makes steps 4 to 11. Returns an answer that needs no handler; none if the request may go on.
   std::optional<DirectAnswer> answer_to_head(const Exchange& exchange) const;
 
   /// Makes steps 12 and 13, once the answer of `bytes_out` bytes has been sent. `peer`: see Socket::peer.

@@ -32,7 +32,7 @@ struct Exchange {
   std::string body;                                        // as sent, until its job decodes it
   std::uint64_t bytes_in = 0;                              // bytes of the body as sent
 
-  HeaderFields fields;  // header fields of the answer, besides those that every answer has
+  HeaderFields fields;  // header fields of the answer, in addition to the common fields of every answer
   int status = 0;
   int retry_after_s = 1;   // seconds, for a 503; by default soon, as another replica may be ready
   bool close = false;      // the connection ends with this answer
@@ -44,13 +44,13 @@ struct Exchange {
   std::string_view problem;                     // see api::Reply
   std::optional<api::PlanOutcome> outcome = std::nullopt;
 
-  /// Gives the body and its memory back, once it has been used: a client may read its answer slowly.
+  /// Gives the body and its memory back, once it has been used, because a client may read its answer slowly.
   void release_body() {
     body = std::string();
     memory.reset();
   }
 
-  /// Sends what the client accepts at once; the rest is added to `unsent`. Returns false when the client is
+  /// Sends what the client accepts at once, and adds the rest to `unsent`. Returns false if the client is
   /// gone.
   bool send(std::string_view data) { return unsent->send(data); }
 };

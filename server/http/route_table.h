@@ -1,7 +1,7 @@
 #pragma once
 
-// The routes of a port, as routes.cpp declares them. The handler of a request, the decision before a body is
-// read (404, 405 and its Allow field) and the label of the metrics all come from here.
+// The routes of a port, as routes.cpp declares them. They give the handler of a request, the decision before
+// a body is read (404, 405 and its Allow field), and the label of the metrics.
 
 #include <functional>
 #include <string>
@@ -14,7 +14,7 @@ namespace fleetplan::server {
 
 struct Exchange;
 
-/// Answers a request that has passed all steps. It may add header fields to those of the exchange.
+/// Answers a request that has passed all steps. It may add header fields to the exchange.
 using Handler = std::function<api::Reply(Exchange&)>;
 
 /// What distinguishes a route besides its method, path and handler.
@@ -22,7 +22,8 @@ struct RouteTraits {
   bool without_token = false;      // served to clients that do not send the token
   bool plans = false;              // returns plans
   bool events = false;             // answers as JSON or as a stream of events
-  std::vector<int> statuses = {};  // statuses of its answers, beyond those that all routes have
+  std::vector<int> statuses = {};  // statuses of its answers, in addition to the common statuses of all
+                                   // routes
 };
 
 struct Route {
@@ -41,14 +42,14 @@ struct Route {
 
 class RouteTable {
  public:
-  /// The most bytes of a path that matches a part in braces, or names a file. No name is that long, and to
-  /// find a file, every folder on the way is looked up.
+  /// The most bytes of a path that matches a part in braces, or names a file. No name is so long. Finding a
+  /// file requires a look-up of every folder on the way.
   static constexpr std::size_t kMaxVariablePath = 1024;
 
   void get(std::string path, Handler handler, RouteTraits traits = {});
   void post(std::string path, Handler handler, RouteTraits traits = {});
 
-  /// Declares GET of all files of a folder. Declare it last: other routes have precedence.
+  /// Declares GET of all files of a folder. Declare it last, because other routes have precedence.
   void files(std::string path, std::function<bool(std::string_view path)> contains, Handler handler,
              RouteTraits traits = {});
 
@@ -57,7 +58,7 @@ class RouteTable {
     std::string parameter = {};    // text that matched the part in braces; for a file, its path
   };
 
-  /// Returns the route of a decoded path. Its method may be another than that of the request.
+  /// Returns the route of a decoded path. Its method may differ from the method of the request.
   Match find(std::string_view path) const;
 
   /// The routes in the order of their declaration.

@@ -22,13 +22,13 @@ class Socket {
   /// Appends input that has arrived.
   Read read_some(std::string& into);
 
-  /// Sends as much as the peer takes at once. Returns the number of bytes; none when the peer is gone.
+  /// Sends as much as the peer takes at once. Returns the number of bytes; none if the peer is gone.
   std::optional<std::size_t> write_some(std::string_view data);
 
   /// Whether the peer has closed its side.
   bool peer_gone() const;
 
-  /// Ends the connection in both directions; peer_gone() is true from then on.
+  /// Ends the connection in both directions. From then on, peer_gone() is true.
   void hang_up();
 
   /// Ends the sending side.
@@ -37,7 +37,7 @@ class Socket {
   /// Whether there is input that was not read.
   bool has_input() const;
 
-  /// Returns address and port of the peer, e.g. 127.0.0.1:40310 or [::1]:40310; empty when it is gone.
+  /// Returns address and port of the peer, e.g. 127.0.0.1:40310 or [::1]:40310. Empty if the peer is gone.
   std::string peer() const;
 
   int fd() const { return fd_; }

@@ -24,7 +24,7 @@ class StaticFiles {
   bool has_root() const { return !root_.empty(); }
 
   /// Reads a file. `path` is decoded and begins with '/'; "/" is index.html. Files are read anew each time,
-  /// so that a page may change under a running server.
+  /// so the page may change under a running server.
   std::optional<StaticFile> read(std::string_view path) const;
 
   bool contains(std::string_view path) const { return locate(path).has_value(); }
@@ -35,8 +35,12 @@ class StaticFiles {
   std::filesystem::path root_;  // canonical
 };
 
-/// Returns the folder of the page when no setting names one: ../share/fleetplan/web beside the executable, if
-/// that folder exists; else the page that was built with this program; else none (empty).
+/// Returns the folder of the page when no setting names one. It is the first of these that exists:
+///
+/// - ../share/fleetplan/web beside the executable,
+/// - the page that was built with this program.
+///
+/// Empty if there is neither.
 std::filesystem::path default_web_root();
 
 }  // namespace fleetplan::server

@@ -15,7 +15,7 @@ inline std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
 }
 
-/// Returns the text with ASCII letters in lower case, everything else as it is.
+/// Returns the text with ASCII letters in lower case. Other characters stay as they are.
 inline std::string lower_case(std::string_view text) {
   std::string lower(text);
   for (char& c : lower) {
@@ -36,8 +36,8 @@ inline std::vector<std::string_view> split(std::string_view text, char separator
 }
 std::vector<std::string_view> split(std::string&& text, char separator) = delete;
 
-/// Returns the text in single quotes, for an error's detail: printable ASCII, others as '?', cut at 100
-/// characters.
+/// Returns the text in single quotes, for an error's detail. Characters that are not printable ASCII become
+/// '?'. The text is cut at 100 characters.
 inline std::string in_quotes(std::string_view text) {
   constexpr std::size_t kMaxLength = 100;
   std::string result = "'";

@@ -25,13 +25,13 @@ namespace fleetplan::server {
 /// its job receives a stop request. Thread-safe.
 class PeerWatch {
  public:
-  /// The time within which it is noticed that a client leaves.
+  /// A client that leaves is noticed within this time.
   static constexpr std::chrono::milliseconds kPeriod{25};
 
   class Watched;
 
   PeerWatch();
-  /// No `Watched` may be left when this is destroyed.
+  /// Every `Watched` must be destroyed before this.
   ~PeerWatch();
   PeerWatch(const PeerWatch&) = delete;
   PeerWatch& operator=(const PeerWatch&) = delete;
@@ -48,7 +48,7 @@ class PeerWatch {
   std::thread thread_;
 };
 
-/// Watches a socket for as long as this lives; the socket has to outlive it.
+/// Watches a socket during its lifetime. The socket must outlive it.
 class PeerWatch::Watched {
  public:
   Watched(PeerWatch& watch, const Socket& socket, std::stop_source stop);
@@ -68,7 +68,7 @@ class PeerWatch::Watched {
   bool gone_ = false;  // guarded by the watch's mutex
 };
 
-/// Frees memory in a thread of its own, so that answers need not wait for it. Thread-safe.
+/// Frees memory in a separate thread, so that answers need not wait for it. Thread-safe.
 class Disposal {
  public:
   Disposal();
@@ -76,7 +76,8 @@ class Disposal {
   Disposal(const Disposal&) = delete;
   Disposal& operator=(const Disposal&) = delete;
 
-  /// Frees the object soon, or at once in this thread while another one is being freed: at most one is left.
+  /// Frees the object soon. If an object is already being freed, frees this one at once in this thread: at
+  /// most one may wait.
   void take(std::shared_ptr<const void> object);
 
  private:
@@ -90,16 +91,18 @@ class Disposal {
   std::thread thread_;
 };
 
-/// Runs jobs, which are the requests that take time: a plan, or the check of one. Accepts no more than the
-/// queue holds and stops those whose client has left. A job waits for a slot, in which its body is decoded
-/// and parsed, and then for its turn, in which its answer is made and coded. Thread-safe.
+/// Runs jobs: requests that take time, such as a plan or a check. Accepts no more jobs than the queue holds.
+/// Stops jobs whose client has left. Thread-safe.
+///
+/// A job waits twice: for a slot, in which its body is decoded and parsed, and for its turn, in which its
+/// answer is made and coded.
 class JobRunner {
  public:
-  /// Runs jobs as the settings say. The log has to outlive it.
+  /// Runs jobs as the settings say. The log must outlive it.
   JobRunner(const Settings& settings, const RequestLog& log);
 
   /// Returns the endpoint's reply to the exchange's body, computed in this thread when its turn has come.
-  /// Stores the time in the queue, and whether the client has left, in the exchange. `events`: receives the
+  /// Stores in the exchange the time in the queue, and whether the client has left. `events`: receives the
   /// progress of a plan, or null.
   api::Reply run(Exchange& exchange, const Service::Endpoint& endpoint, api::PlanEvents* events);
 

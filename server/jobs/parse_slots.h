@@ -36,12 +36,13 @@ class ParseSchedule {
 
   explicit ParseSchedule(std::size_t slots) : free_(slots) {}
 
-  /// Takes a free slot for a body and returns its kind; none if there is no free one.
+  /// Takes a free slot for a body and returns its kind; none if no slot is free.
   Kind take(const Body& body);
-  /// Lets a body wait for which there is no free slot. It outlives its wait, which ends when it gets a slot.
+  /// Adds a body for which no slot is free to the queue. The wait ends when it gets a slot. The body must
+  /// outlive its wait.
   void wait(Waiting& waiting) { waiting_.push_back(&waiting); }
   void stop_waiting(Waiting& waiting) { waiting_.remove(&waiting); }
-  /// Takes a slot back from a body. Returns the one that has got it, or null.
+  /// Takes a slot back from a body. Returns the waiting body that gets the slot, or null.
   Waiting* give_back(Kind kind, const Body& body);
 
  private:
@@ -53,11 +54,12 @@ class ParseSchedule {
   std::list<Waiting*> waiting_;
 };
 
-/// Bounds how many bodies are parsed at the same time, as parsing needs many times the memory of the body.
-/// Slots go round the clients: next is a body of the client that has the fewest. Of those, small bodies come
-/// before large ones that arrived at the same time, but no body waits for ever: next is the one that would
-/// have been parsed first if each had been parsed alone since it arrived. One more slot is for small bodies,
-/// so that these do not wait behind large ones. Thread-safe.
+/// Bounds how many bodies are parsed at the same time, because parsing needs many times the memory of the
+/// body. Slots go round the clients: the next body is from the client that has the fewest slots.
+///
+/// Of this client's bodies, small ones come before large ones that arrived at the same time. But no body
+/// waits for ever. The order is as if each body had been parsed alone since its arrival: the first to finish
+/// is next. One more slot is for small bodies, so that they do not wait behind large bodies. Thread-safe.
 class ParseSlots {
  public:
   using Body = ParseSchedule::Body;
@@ -79,7 +81,7 @@ class ParseSlots {
 /// Waits for a slot and holds it.
 class ParseSlots::Slot {
  public:
-  /// Waits for a slot, but no longer than until `stop` is met; then has_slot() is false.
+  /// Waits for a slot, but no longer than until `stop` is met. Then has_slot() is false.
   Slot(ParseSlots& slots, Body body, const core::StopCondition& stop);
   ~Slot() { release(); }
   Slot(const Slot&) = delete;

@@ -12,31 +12,31 @@
 
 namespace fleetplan::server {
 
-/// Decides which jobs are accepted and whose turn it is to compute. This is the policy alone, without threads
+/// Decides which jobs are accepted and whose turn it is to compute. This is only the policy, without threads
 /// and without a clock: callers pass the time.
 ///
 /// - **Turns.** As many jobs compute at a time as there are workers. One more turn, the lane, is for short
-///   jobs, so that these do not wait behind long ones.
+///   jobs, so that they do not wait behind long jobs.
 /// - **First plans before improvements.** A job that has its first plan and improves it gives its turn to a
-///   job that waits for its first, and gets one again when no such job waits. At most as many improvements
-///   are paused as there are workers; further ones end with what they have.
-/// - **Long turns are shared.** A job that goes on for long, such as a simulation, gives its turn to one that
-///   waits and gets one again in the order of turns, as if it had just asked. Nothing is lost of what it has
-///   done. Jobs of a client that wait for their first turn get it before those that were interrupted. While
-///   as many jobs are paused or interrupted as there are workers, the turn goes only to one of these or, if
-///   there is not one more, to a job that does not share its own: so jobs that share their turns do not keep
-///   others out, however many they are.
-/// - **Large plans make room for small ones.** A job that takes long to its first plan gives its turn to one
-///   that plans for far fewer robots, or to a check that is expected to be short, and is the next to get a
-///   turn again. Plans of like size do not share: each would take as long as all of them.
-/// - **Order.** Turns go round the clients: next is the client with the fewest turns, then the one whose last
-///   turn is the longest ago. Of a client's jobs, and of clients that have had no turn yet, the one with the
-///   earliest deadline is next.
+///   job that waits for its first plan. It gets a turn again when no such job waits. At most as many
+///   improvements are paused as there are workers. Further improvements end with what they have.
+/// - **Long turns are shared.** A job that goes on for long, such as a simulation, gives its turn to a job
+///   that waits. It gets a turn again in the order of turns, as if it had just asked, and loses no work. A
+///   client's jobs that wait for their first turn come before its interrupted jobs. While as many jobs are
+///   paused or interrupted as there are workers, the turn goes only to one of these, or to a job that does
+///   not share its turns. With one more, it goes only to one of these. So jobs that share their turns do not
+///   keep other jobs out, however many they are.
+/// - **Large plans make room for small ones.** A job that takes long to its first plan gives its turn to a
+///   job that plans for far fewer robots, or to a check that is expected to be short. It is the next to get a
+///   turn again. Plans of similar size do not share: each would take as long as all of them.
+/// - **Order.** Turns go round the clients. Next is the client with the fewest turns, then the client whose
+///   last turn is the longest ago. Among a client's jobs, and among clients without a turn so far, the job
+///   with the earliest deadline is next.
 /// - **Places.** There are `queue` places for jobs that wait, and `burst` more while the expected wait is
-///   short. A client that has less than its share, which is the number of places by that of the clients, is
-///   accepted beyond that, as long as there are no more jobs than at most plus `queue`.
-/// - **Refusals.** A job that is not expected to get its turn with enough of its time left is refused when it
-///   asks for a turn. A job that waits gives up when less time is left than jobs like it need.
+///   short. A client's share is the number of places divided by the number of clients. A client with less
+///   than its share is accepted beyond the places, up to `queue` jobs more.
+/// - **Refusals.** A job is refused when it asks for a turn, if it is not expected to get the turn with
+///   enough of its time left. A job that waits gives up when less time is left than similar jobs need.
 class Schedule {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -62,7 +62,7 @@ class Schedule {
     bool is_short = false;        // may use the lane
   };
 
-  /// A job from its acceptance to its end; its owner keeps it and only reads it.
+  /// A job from its acceptance to its end. Its owner keeps it and only reads it.
   struct Job {
     enum class State { accepted, waiting, computing, improving, paused };
 
@@ -85,8 +85,8 @@ class Schedule {
   /// Accepts a job, or returns why not.
   std::optional<Refusal> accept(Job& job, Time now);
 
-  /// Asks for the turn of an accepted job. When this returns, the job has its turn, or waits, or is refused
-  /// for the reason returned.
+  /// Asks for the turn of an accepted job. On return, the job has its turn, or waits, or is refused for the
+  /// reason returned.
   std::optional<Refusal> request_turn(Job& job, const Need& need, Time now);
 
   /// The outcome for an improvement.
@@ -94,11 +94,11 @@ class Schedule {
     enum class Next { goes_on, pauses, ends } next = Next::goes_on;
     Job* has_turn = nullptr;  // the job that has got the turn
   };
-  /// Decides about a job that has its turn and a plan and is about to improve it.
+  /// Decides about a job that has its turn and a plan, and is about to improve the plan.
   Improvement improve(Job& job, Time now);
 
-  /// Decides about a job that is about to go on with what cannot end early. Returns the job that has got its
-  /// turn, for which this one waits now, or null if it goes on.
+  /// Decides about a job that is about to go on with work that cannot end early. Returns the job that has got
+  /// its turn, for which this job now waits. Returns null if it goes on.
   Job* share(Job& job, Time now);
 
   /// Ends the wait of a job, which remains accepted.
@@ -112,7 +112,7 @@ class Schedule {
 
   /// The number of jobs that wait for their first turn.
   std::size_t waiting() const;
-  /// The number of jobs that had a turn and wait for another one.
+  /// The number of jobs that had a turn and wait for their next turn.
   std::size_t paused() const;
   std::size_t running() const { return turns_ + (lane_taken_ ? 1 : 0); }
 

@@ -29,11 +29,11 @@ class Helpers {
   Helpers(const Helpers&) = delete;
   Helpers& operator=(const Helpers&) = delete;
 
-  /// Sets how many jobs compute, whose threads are not idle.
+  /// Sets how many jobs compute. Their threads are not idle.
   void set_computing(std::size_t jobs);
 
   /// Runs tasks of a job whose turn it is: the caller runs them, and idle workers help. It never waits for a
-  /// task that has not begun, so no worker has to be idle. See Executor::run_on.
+  /// task that has not begun, so it works without idle workers. See Executor::run_on.
   void run(std::size_t threads, std::size_t count, const Task& task);
 
  private:
@@ -54,8 +54,8 @@ class Helpers {
   std::vector<std::thread> threads_;
 };
 
-/// Gives jobs their turns as the schedule decides. A job computes in the thread that awaits its turn: a
-/// handover to another thread costs more than a small plan. Thread-safe.
+/// Gives jobs their turns as the schedule decides. A job computes in the thread that awaits its turn, because
+/// a handover to another thread costs more than a small plan. Thread-safe.
 class Workers {
  public:
   using Clock = std::chrono::steady_clock;
@@ -66,8 +66,8 @@ class Workers {
 
   WorkerLoad load() const;
 
-  /// Returns the seconds, at least 1, after which a refused job may find room: when a turn is expected to be
-  /// free, and up to half as much again at random, so that refused clients do not return all at once.
+  /// Returns the seconds, at least 1, after which a refused job may find room. This is the expected time
+  /// until a turn is free, plus up to half of it at random. So refused clients do not return all at once.
   int retry_after_s();
 
  private:
@@ -80,24 +80,25 @@ class Workers {
   Helpers helpers_;
 };
 
-/// A job's place among the others, until its end. Its functions are called by the thread that computes it.
+/// A job's place in the queue and among the workers, until its end. Its functions are called by the thread
+/// that computes it.
 class Workers::Job final : public core::Executor {
  public:
-  /// Accepts the job, or refuses it; a job that is refused does nothing more. See Schedule::Job for `client`.
+  /// Accepts the job, or refuses it. A refused job does nothing more. See Schedule::Job for `client`.
   Job(Workers& workers, std::string client);
   ~Job() override;
 
-  /// The reason why the job was refused; none if it was not, so far.
+  /// The reason why the job was refused; none if it has not been refused.
   std::optional<Refusal> refusal() const { return refusal_; }
 
-  /// Asks for the job's turn, once. Returns false when it is refused.
+  /// Asks for the job's turn, once. Returns false if it is refused.
   bool request_turn(const Schedule::Need& need);
 
   /// Waits for the turn, which lasts until the job's end, except for pauses. Returns false if `stop` is met
-  /// before; then the job is refused, or cancelled.
+  /// before. Then the job is refused, or cancelled.
   bool await_turn(const core::StopCondition& stop);
 
-  /// Runs the tasks by this thread and by idle workers.
+  /// Runs the tasks in this thread and with idle workers.
   void run_on(std::size_t threads, std::size_t count, const Task& task) override {
     workers_.helpers_.run(threads, count, task);
   }
@@ -105,8 +106,8 @@ class Workers::Job final : public core::Executor {
   /// Gives the turn away while others wait for their first plans.
   bool may_improve(const core::StopCondition& stop) override;
 
-  /// Gives the turn to others if it has lasted long, and waits for the next one. Returns false when `stop` is
-  /// met before.
+  /// Gives the turn to other jobs if it has lasted long, and waits for the next turn. Returns false if `stop`
+  /// is met before.
   bool let_others(const core::StopCondition& stop);
 
  private:

@@ -1,7 +1,8 @@
 #pragma once
 
-// Kinds of metrics, and their text. Many threads change the numbers, and one reads them from time to time.
-// Each is consistent by itself; together they may be from slightly different moments, as Prometheus expects.
+// Kinds of metrics, and their text. Many threads change the numbers, and one thread reads them from time to
+// time. Each number is consistent by itself. Together, they may be from slightly different moments, as
+// Prometheus expects.
 
 #include <array>
 #include <atomic>
@@ -47,7 +48,7 @@ class Sum {
 /// Durations, counted by size.
 class Histogram {
  public:
-  /// Upper bounds of the buckets, seconds, inclusive; whatever is longer is counted beyond the last.
+  /// Upper bounds of the buckets, seconds, inclusive. Longer durations are counted beyond the last bound.
   static constexpr std::array<double, 16> kBounds{0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1,  0.25,
                                                   0.5,   1.0,    2.5,   5.0,  10.0,  30.0, 60.0, 120.0};
 
@@ -58,7 +59,7 @@ class Histogram {
     sum_.add(seconds);
   }
 
-  /// The number of durations in bucket `index` alone; kBounds.size() is the bucket beyond the last bound.
+  /// The number of durations in bucket `index` alone. kBounds.size() is the bucket beyond the last bound.
   std::uint64_t count(std::size_t index) const { return counts_[index].value(); }
   double sum() const { return sum_.value(); }
 
@@ -69,8 +70,8 @@ class Histogram {
 
 inline constexpr const char* kMetricsType = "text/plain; version=0.0.4; charset=utf-8";
 
-/// Writes metrics in the text format of Prometheus, version 0.0.4. Written here because Debian's
-/// prometheus-cpp would bring another web server and curl's development files along for these few lines.
+/// Writes metrics in the text format of Prometheus, version 0.0.4. It is written here because Debian's
+/// prometheus-cpp would bring another web server and curl's development files for these few lines.
 class MetricsText {
  public:
   using Labels = std::vector<std::pair<std::string_view, std::string_view>>;
@@ -92,8 +93,11 @@ class MetricsText {
   std::string name_;
 };
 
-/// Why a job is refused: there is no place; there is none beyond its client's share; or its turn would come
-/// too late, or did not come in time.
+/// Why a job is refused:
+///
+/// - queue_full: there is no place.
+/// - share: there is no place beyond its client's share.
+/// - too_late: its turn would come too late, or did not come in time.
 enum class Refusal { queue_full, share, too_late };
 inline constexpr std::size_t kRefusals = 3;
 
@@ -120,13 +124,13 @@ struct Gauges {
 /// Counts requests and plans since the start. Thread-safe; counting takes no lock.
 class Metrics {
  public:
-  /// Counts by `routes`, those of the main port; the admin port's are among them.
+  /// Counts by `routes`, the routes of the main port. They include the admin port's routes.
   explicit Metrics(const RouteTable& routes);
 
   /// Counts an exchange that is over.
   void count(const Exchange& exchange);
 
-  /// Returns the answer to GET /metrics, see MetricsText. All series exist from the start, except those of
+  /// Returns the answer to GET /metrics, see MetricsText. All series exist from the start, except for
   /// statuses that are unusual on their route.
   std::string text(const Gauges& load) const;
 

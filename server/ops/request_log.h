@@ -20,13 +20,13 @@ class logger;
 
 namespace fleetplan::server {
 
-/// A queue of lines on their way to a descriptor. A thread of its own writes them, so that a reader who does
-/// not read delays nobody: lines beyond `max_bytes` are dropped and counted. Thread-safe.
+/// A queue of lines on their way to a descriptor. A separate thread writes them, so that a reader who does
+/// not read delays nobody. Lines beyond `max_bytes` are dropped and counted. Thread-safe.
 class LogQueue {
  public:
   LogQueue(int fd, std::size_t max_bytes);
 
-  /// Flushes the lines. If the reader does not read, the thread stays behind, waiting for it.
+  /// Flushes the lines. If the reader does not read, the thread stays behind and waits for it.
   ~LogQueue();
   LogQueue(const LogQueue&) = delete;
   LogQueue& operator=(const LogQueue&) = delete;
@@ -34,10 +34,11 @@ class LogQueue {
   /// Takes a line with its end, or drops it. Never waits for the reader.
   void push(std::string line);
 
-  /// Waits until all lines have been written, but no longer than this.
+  /// Waits until all lines have been written, but no longer than `patience`.
   void flush(std::chrono::milliseconds patience = std::chrono::milliseconds(1000)) const;
 
-  /// The number of lines that were not written: the queue was full, or the descriptor did not take them.
+  /// The number of lines that were not written, because the queue was full or the descriptor did not take
+  /// them.
   std::uint64_t dropped() const;
 
  private:
@@ -71,8 +72,8 @@ class RequestLog {
   /// `level`: trace, debug, info, warn, error, critical or off.
   explicit RequestLog(const std::string& level, int fd = 2);
 
-  /// Logs a request: at level info, error for a status of 500 and more except 503, debug for what the admin
-  /// port answers.
+  /// Logs a request. The level is info, but error for a status of 500 and more except 503, and debug for
+  /// answers of the admin port.
   void request(const RequestRecord& record) const;
 
   using Value = std::variant<std::int64_t, std::string>;
@@ -98,7 +99,7 @@ class RequestLog {
   std::shared_ptr<spdlog::logger> logger_;
 };
 
-/// Returns the 500 that answers an exception, which means a bug. The exception's text goes to the log only.
+/// Returns the 500 that answers an exception, which means a bug. The exception's text goes only to the log.
 api::Reply internal_error(const RequestLog& log, const std::string& request_id,
                           const std::exception_ptr& failure);
 

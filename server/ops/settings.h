@@ -16,7 +16,7 @@ class App;
 
 namespace fleetplan::server {
 
-/// Everything an operator may set. The defaults here are those of the flags.
+/// Everything an operator may set. The defaults here are the defaults of the flags.
 struct Settings {
   std::string host = "127.0.0.1";
   int port = 8080;                               // 0: any free one
@@ -47,15 +47,19 @@ struct SettingsExit {
   std::string text;
 };
 
-/// Returns the settings from flags (without the program's name), the environment (`FLEETPLAN_` and the flag
-/// in capitals; empty is not set), the file of --config and defaults, in this order of precedence.
+/// Returns the settings. The sources, in this order of precedence:
+///
+/// 1. flags (without the program's name),
+/// 2. the environment (`FLEETPLAN_` and the flag in capitals; an empty variable counts as not set),
+/// 3. the file of --config,
+/// 4. and defaults.
 std::variant<Settings, SettingsExit> parse_settings(std::vector<std::string> arguments);
 
-// Flags, and their environment variables, that commands without a server have, too. What they set outlives
-// `app`.
-/// Adds the flag of the planning threads, by default one for each CPU granted.
+// Flags, and their environment variables, that commands without a server also have. The variables that they
+// set must outlive `app`.
+/// Adds the flag of the planning threads. The default is one for each CPU granted.
 void add_workers_flag(CLI::App& app, int& workers);
-/// Adds the flags of the limits of a request, but for its size.
+/// Adds the flags of the limits of a request, except for its size.
 void add_limit_flags(CLI::App& app, api::Limits& limits);
 /// Makes the limits agree once `app` has parsed them. Returns the fault if they are out of range.
 std::optional<std::string> settle_limits(const CLI::App& app, api::Limits& limits);

@@ -10,7 +10,7 @@
 
 namespace fleetplan::server {
 
-/// The service behind HTTP. A test uses a stub here and needs no planner.
+/// The service behind HTTP. Tests can use a stub here, and then need no planner.
 struct Service {
   using Endpoint = std::function<api::Reply(std::string_view body, const api::RequestContext&)>;
   struct Example {
@@ -18,7 +18,7 @@ struct Service {
     std::string body;  // JSON
   };
 
-  // Each is run as a job (JobRunner), and waits for its turn once its body is read and has no fault.
+  // Each runs as a job (JobRunner). It waits for its turn once its body has been read and has no fault.
   Endpoint plan;  // with progress
   Endpoint validate;
   Endpoint simulate;  // with progress

@@ -1,6 +1,6 @@
 #pragma once
 
-// Answers that cpp-httplib does not write: to requests without a handler, and streams of events.
+// Answers that cpp-httplib does not write: answers to requests without a handler, and streams of events.
 
 #include <chrono>
 #include <condition_variable>
@@ -31,7 +31,8 @@ DirectAnswer refusal(const Exchange& exchange, api::ErrorCode code, const std::s
 /// Returns the header fields of every answer, whoever writes it.
 HeaderFields common_fields(const Exchange& exchange);
 
-/// Returns a head, with the empty line that ends it. `further` header fields follow those of every answer.
+/// Returns a head, with the empty line that ends it. `further` header fields follow the common fields of
+/// every answer.
 std::string answer_head(const Exchange& exchange, int status, const HeaderFields& further);
 
 /// Returns the whole answer as it is sent.
@@ -40,16 +41,16 @@ std::string answer_text(const Exchange& exchange, const DirectAnswer& answer);
 /// The answer to an exchange as a stream of events (WHATWG HTML, server-sent events), each with one line of
 /// data. It bypasses cpp-httplib, which would have to know from the start that the answer is a stream.
 ///
-/// After begin() a thread of its own writes. The planner only stores the latest state, so a slow client does
-/// not delay it; such a client skips outdated states. One that is too slow, see WritePatience, loses its
+/// After begin(), its own thread writes. The planner only stores the latest state, so a slow client does not
+/// delay it. A slow client skips outdated states. A client that is too slow, see WritePatience, loses its
 /// connection.
 class EventStream final : public api::PlanEvents {
  public:
   /// The time between two progress events, whatever the planner does.
   static constexpr std::chrono::milliseconds kPeriod{150};
 
-  /// The exchange, and `last`, the name of the event that ends the stream with the answer, have to outlive
-  /// this object.
+  /// The exchange and `last` must outlive this object. `last` is the name of the event that ends the stream
+  /// with the answer.
   explicit EventStream(Exchange& exchange, const char* last = "plan");
   ~EventStream() override;
 
@@ -60,8 +61,8 @@ class EventStream final : public api::PlanEvents {
   /// Whether anything has been written.
   bool begun() const { return begun_; }
 
-  /// Writes the last event of a stream that has begun: the answer, or a problem. What the client does not
-  /// accept at once goes to Exchange::unsent. If the client is gone, the connection is closed.
+  /// Writes the last event of a stream that has begun: the answer, or a problem. Data that the client does
+  /// not accept at once goes to Exchange::unsent. If the client is gone, the connection is closed.
   void end(const api::Reply& reply);
 
  private:

@@ -13,14 +13,14 @@
 
 namespace fleetplan::server {
 
-/// Bounds the memory of answers that clients have not accepted yet, of all connections together. When an
-/// answer has no room, others are dropped: first that of the client which has accepted nothing for the
-/// longest time. The newest is kept whatever its size. Thread-safe.
+/// Bounds the memory of answers that clients have not accepted yet, of all connections together. If an answer
+/// has no room, others are dropped, first the answer whose client has accepted nothing for the longest time.
+/// The newest answer is kept whatever its size. Thread-safe.
 class UnsentAnswers {
  public:
   class Answer;
 
-  /// Keeps at most `max_bytes` of all answers together, or of the newest answer alone if that is larger.
+  /// Keeps at most `max_bytes` of all answers together. If the newest answer is larger, it is kept alone.
   explicit UnsentAnswers(std::size_t max_bytes) : max_bytes_(max_bytes) {}
 
   struct Stats {
@@ -37,7 +37,7 @@ class UnsentAnswers {
   void make_room(std::size_t bytes, const Answer& newest);
 
   const std::size_t max_bytes_;
-  mutable std::mutex mutex_;  // guards all below; locked before that of an answer
+  mutable std::mutex mutex_;  // guards all below; locked before an answer's mutex
   Stats stats_;
   std::vector<Answer*> held_;
 };
@@ -51,15 +51,15 @@ class UnsentAnswers::Answer {
   Answer(const Answer&) = delete;
   Answer& operator=(const Answer&) = delete;
 
-  /// Sends what the client accepts at once, and keeps the rest. Returns false when the client is gone, or
-  /// what it has not accepted was dropped.
+  /// Sends what the client accepts at once, and keeps the rest. Returns false if the client is gone, or if
+  /// the rest was dropped.
   bool send(std::string_view data);
 
-  /// Sends more of the rest. Returns the number of bytes; none when the client is gone, or the rest was
+  /// Sends more of the rest. Returns the number of bytes; none if the client is gone, or if the rest was
   /// dropped.
   std::optional<std::size_t> send_rest();
 
-  /// Whether something was not accepted yet. A dropped rest counts.
+  /// Whether a part was not accepted yet. A dropped rest counts.
   bool has_rest() const;
 
   /// The number of bytes that are left.

@@ -15,14 +15,14 @@
 
 namespace fleetplan::server {
 
-/// Bounds the memory of the heads and bodies of all requests together, in bytes as sent and as decoded, so
-/// that too many large ones at the same time are rejected. Small ones have a part of their own: other clients
-/// are served even while a few occupy the rest. Memory for their content, such as parsed JSON, is not
-/// counted. Thread-safe.
+/// Bounds the memory of the heads and bodies of all requests together, in bytes as sent and as decoded. So
+/// too many large bodies at the same time are rejected. Small bodies have a separate part: other clients are
+/// served even while a few occupy the rest. Memory for their content, such as parsed JSON, is not counted.
+/// Thread-safe.
 class BodyMemory {
  public:
-  /// Has memory for `requests` (at least one) bodies of `max_body` bytes (up to 1 TiB), of which one is being
-  /// decoded, besides `small` ones of kSmall bytes.
+  /// Has memory for `requests` (at least one) bodies of `max_body` bytes (up to 1 TiB), and for `small`
+  /// bodies of kSmall bytes. One of the large bodies may be decoded at the same time.
   BodyMemory(std::uint64_t max_body, std::size_t requests, std::size_t small);
 
   /// The memory that one request holds until its end.
@@ -43,7 +43,7 @@ class BodyMemory {
   };
 
   static constexpr std::uint64_t kSmall = 64 * 1024;
-  /// The detail of the problem when there is no more.
+  /// The detail of the problem when there is no more memory.
   static constexpr const char* kFull = "Too many large requests are being received: try again later.";
 
  private:
@@ -57,8 +57,8 @@ struct ChunkLine {
   std::uint64_t extension_bytes;  // bytes of the line after the size
 };
 
-/// Parses the line before a chunk, without its CR LF. Returns none unless it is a hexadecimal number of up to
-/// 16 digits, followed by nothing but extensions `;name`, `;name=token` or `;name="text"`.
+/// Parses the line before a chunk, without its CR LF. The line must be a hexadecimal number of up to 16
+/// digits. Only extensions `;name`, `;name=token` or `;name="text"` may follow. Returns none otherwise.
 std::optional<ChunkLine> parse_chunk_line(std::string_view line);
 
 /// Why there is no body.
@@ -72,18 +72,18 @@ api::ErrorCode code_of(BodyFault::Kind kind);
 BodyFault malformed_body(std::string detail);
 BodyFault too_large_body(const std::string& size, std::uint64_t limit);
 
-/// Reads the body of a request as it was sent, still content-coded, by Content-Length or chunked (RFC 9112,
-/// 6 and 7), as its bytes arrive. Rejects malformed framing; chunk extensions and trailers are checked and
-/// dropped.
+/// Reads the body of a request as it was sent, still content-coded, as its bytes arrive. Its length is given
+/// by Content-Length or chunks (RFC 9112, 6 and 7). Rejects malformed framing. Chunk extensions and trailers
+/// are checked and dropped.
 class BodyReader {
  public:
   enum class State { incomplete, complete, failed };
 
-  /// Reads a body of at most `limit` bytes. `share` of the memory of all bodies holds it; null: the body is
+  /// Reads a body of at most `limit` bytes. `share` of the memory of all bodies holds it. Null: the body is
   /// dropped instead.
   BodyReader(const RequestHead& head, std::uint64_t limit, BodyMemory::Share* share);
 
-  /// Takes what has arrived off `input`; what follows the body stays there.
+  /// Removes the part of the body that has arrived from `input`. What follows the body stays there.
   State take(std::string& input);
 
   /// The body, once it is complete.

@@ -1,8 +1,10 @@
 #pragma once
 
 // The head of an HTTP/1.x request: request line and header fields, parsed strictly (RFC 9112). Input that two
-// parsers read differently allows request smuggling. Also the characters of fields and trailers (RFC 9110,
-// 5.6), and the ids by which a request is found in logs: its own, and that of the trace it belongs to.
+// parsers read differently allows request smuggling.
+//
+// Also the characters of fields and trailers (RFC 9110, 5.6), and two ids by which a request is found in
+// logs: its own id, and the id of its trace.
 
 #include <algorithm>
 #include <cstddef>
@@ -19,13 +21,13 @@ namespace fleetplan::server {
 /// The authority of a URI without user information (RFC 3986, 3.2): `host[:port]`.
 struct Authority {
   std::string host;  // in lower case; an IPv6 address with its brackets
-  std::string port;  // digits; empty: that of the scheme
+  std::string port;  // digits; empty: the scheme's default port
 };
 
-/// Parses an authority. Returns none when it is malformed or has no host.
+/// Parses an authority. Returns none if it is malformed or has no host.
 std::optional<Authority> parse_authority(std::string_view text);
 
-/// Whether a name is one of this machine alone: localhost, 127.0.0.0/8 and ::1, the last with or without
+/// Whether a name belongs to this machine alone: localhost, 127.0.0.0/8 and ::1, the last with or without
 /// brackets.
 bool is_local_name(std::string_view host);
 
@@ -57,14 +59,14 @@ inline constexpr std::size_t kMaxHeadBytes = 32 * 1024;
 inline constexpr std::size_t kMaxTargetBytes = 8 * 1024;
 inline constexpr std::size_t kMaxHeaderFields = 100;
 
-/// Names and values of header fields, in their order; a name may occur several times.
+/// Names and values of header fields, in their order. A name may occur several times.
 using HeaderFields = std::vector<std::pair<std::string, std::string>>;
 
 struct RequestHead {
   std::string method;    // as sent, e.g. "POST"
   std::string raw_path;  // as sent, without query
   std::string path;      // percent-decoded
-  /// The host of the target, else that of the Host field, as sent; none: HTTP/1.0 without Host.
+  /// The host in the target, otherwise the host in the Host field, as sent. None: HTTP/1.0 without Host.
   std::optional<std::string> host = std::nullopt;
   bool http_1_0 = false;
   HeaderFields fields;                          // names in lower case, values trimmed
@@ -86,15 +88,13 @@ struct BadHead {
   Kind kind = Kind::malformed;
 };
 
-/// Returns the fault of a head of which more than kMaxHeadBytes have arrived: its target or its fields are
-/// too long.
+/// Returns the fault of a head of more than kMaxHeadBytes: its target or its fields are too long.
 BadHead too_large_head(std::string_view begun);
 
 /// Parses a head: `text` is everything from the request line to the empty line, which is included.
 std::variant<RequestHead, BadHead> parse_request_head(std::string_view text);
 
-/// Decodes percent-encoding: `%41` -> `A`. Returns none when an escape is broken or yields a control
-/// character.
+/// Decodes percent-encoding: `%41` -> `A`. Returns none if an escape is broken or yields a control character.
 std::optional<std::string> percent_decoded(std::string_view text);
 
 /// Finds the end of a head in a growing buffer, looking at each byte once.
@@ -119,7 +119,7 @@ bool is_well_formed_request_id(std::string_view id);
 /// Returns 128 random bits as 32 hexadecimal digits.
 std::string make_request_id();
 
-/// Returns the trace_id, 32 hexadecimal digits, of a `traceparent` field (W3C Trace Context); none if the
+/// Returns the trace_id, 32 hexadecimal digits, of a `traceparent` field (W3C Trace Context). None if the
 /// field is absent (empty) or malformed.
 std::optional<std::string> trace_id_of(std::string_view traceparent);
 
