@@ -11,8 +11,8 @@ namespace fleetplan::library {
 
 namespace {
 
-/// Whether two enumerations have equal values. These are the last ones of each, and the values are in the
-/// same order.
+/// Whether two enumerations have equal values. The arguments are the last value of each; the values are in
+/// the same order.
 template <typename A, typename B>
 constexpr bool same(A a, B b) {
   return static_cast<int>(a) == static_cast<int>(b);
@@ -89,7 +89,7 @@ std::optional<double> normalized(const std::optional<double>& theta) {
   return theta ? std::optional(core::normalize_angle(*theta)) : std::nullopt;
 }
 
-/// Gives a goal the pose at which it is served, or the first of those at which it may be.
+/// Gives a goal the pose at which it is served, or the first pose at which it may be served.
 void set_pose(core::Goal& made, const Goal& goal, const Frame& frame) {
   std::optional<double> theta = goal.theta;
   made.position = frame.to_core(goal.x, goal.y);
@@ -252,7 +252,7 @@ void tell_choice(const std::vector<core::OpenGoal>& open, const Frame& frame, Vi
   visit.place = Position{world.x, world.y};
 }
 
-/// The places where idle robots end are no goals of the user's.
+/// The places where idle robots end do not count as the user's goals.
 RobotPlan plan_of(const core::RobotPlan& plan, std::size_t goals, const std::vector<core::OpenGoal>& open,
                   const Frame& frame) {
   RobotPlan made;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Converts values of the public headers to those of core, and back (convert.cpp), and makes valid problems of
+// Converts values of the public headers to values of core, and back (convert.cpp). Makes valid problems of
 // them (make_problem.cpp). Core has positions relative to the lower left corner of the map.
 
 #include <fleetplan/action.h>
@@ -29,10 +29,10 @@
 
 namespace fleetplan::library {
 
-/// The place of the map's lower left corner, and conversions by it.
+/// The position of the map's lower left corner, and conversions with it.
 class Frame {
  public:
-  Frame() = default;  // that of the core
+  Frame() = default;  // the frame of core
   explicit Frame(const Map& map) : origin_(map.origin().x, map.origin().y) {}
 
   core::Position to_core(double x, double y) const { return core::Position(x, y) - origin_; }
@@ -46,10 +46,10 @@ class Frame {
 };
 
 core::OccupancyGrid grid_of(const Map& map);
-/// Converts a robot without its committed and previous actions. A goal with several poses has the one that is
-/// told, or the first.
+/// Converts a robot without its committed and previous actions. A goal with several poses gets the pose that
+/// is told, or the first.
 core::Robot robot_of(const Robot& robot, const Frame& frame);
-/// Returns those of its goals that have several poses.
+/// Returns the robot's goals that have several poses.
 std::vector<core::OpenGoal> open_goals_of(const Robot& robot, const Frame& frame);
 core::MovingObstacle obstacle_of(const MovingObstacle& obstacle, const Frame& frame);
 core::Zone zone_of(const Zone& zone, const Frame& frame);
@@ -59,13 +59,13 @@ core::PlanOptions options_of(const Options& options, bool in_motion);
 core::RobotPlan plan_of(const RobotPlan& plan, const Frame& frame);
 std::vector<core::UnavoidableCollision> unavoidable_of(const std::vector<UnavoidableCollision>& collisions);
 
-/// Converts a plan, except whether it is verified and how long it took. `open` has the poses that are chosen,
-/// by robot; empty if no goal has several.
+/// Converts a plan, except whether it is verified and how long it took. `open` has the chosen poses, by
+/// robot; empty if no goal has several.
 Plan plan_of(const core::Plan& plan, const Problem& problem, const core::OpenGoals& open);
 Verification verification_of(core::VerifyReport report);
 Progress progress_of(const core::Progress& progress);
 
-/// What is read from a problem; faults of its numbers and lists are added to `faults`.
+/// The parts that are read from a problem. Faults of its numbers and lists are added to `faults`.
 struct ReadFleet {
   std::vector<core::Robot> robots;
   core::OpenGoals open;  // by robot
@@ -79,7 +79,7 @@ ReadFleet read_fleet(const Problem& problem);
 /// Whether any robot has committed actions or a previous plan.
 bool in_motion(const Problem& problem);
 
-/// What the planner is to plan, or its faults. Neither if a stop was requested first.
+/// The problem that the planner is to plan, or its faults. Neither if a stop was requested first.
 struct MadeProblem {
   std::optional<core::PlanTask> task;
   std::vector<Fault> faults;

@@ -60,7 +60,7 @@ std::string item(const std::string& list, std::size_t index) {
 
 constexpr std::size_t kMaxFaults = 20;
 
-/// Collects faults, and keeps the first ones of many.
+/// Collects faults. If there are many, keeps only the first ones.
 class FaultList {
  public:
   explicit FaultList(std::size_t max) : max_(max) {}
@@ -135,7 +135,7 @@ const char* impossible(const core::Action& action, const core::Robot& robot, con
   return d.dot(heading) > kTolerance ? "leads ahead, although it reverses" : nullptr;
 }
 
-/// Returns why the profile of an action does not fit; null if it does. Only measured motion has none.
+/// Returns why the profile of an action does not fit; null if it does. Only measured motion has no profile.
 /// `speed`: at the end of the action before; none: unknown.
 const char* unfit(const core::Action& action, const core::Robot& robot, const core::Load& load,
                   std::optional<double> speed, bool may_be_measured) {
@@ -164,8 +164,8 @@ const char* unfit(const core::Action& action, const core::Robot& robot, const co
 }
 
 /// Reads the committed or previous actions of a robot. Differences within the contact tolerance are removed,
-/// so that the actions are exactly contiguous; larger ones, and actions that the robot cannot execute, are
-/// faults. The first `measured` actions may be measured motion, which has no profiles.
+/// so that the actions are exactly contiguous. Larger differences, and actions that the robot cannot execute,
+/// are faults. The first `measured` actions may be measured motion, which has no profiles.
 std::vector<core::Action> read_actions(const std::vector<Action>& actions, const core::Robot& robot,
                                        const std::vector<core::OpenGoal>& open, std::size_t measured,
                                        const Frame& frame, const std::string& place, FaultList& faults) {
@@ -462,7 +462,7 @@ bool is_of_a_pair(const core::ProblemFault& found) {
          found.other != found.robot;
 }
 
-/// Makes the problem, if need be again and again with more robots that are invalid.
+/// Makes the problem. If necessary, makes it again, each time with more robots that are invalid.
 class ProblemMaker {
  public:
   ProblemMaker(const std::shared_ptr<const core::StaticMap>& map, ReadFleet fleet,

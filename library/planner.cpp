@@ -67,7 +67,7 @@ std::vector<core::RobotPlan> core_plans(std::span<const RobotPlan> plans, const 
   return made;
 }
 
-/// Chooses what a visit names. Returns whether the goal has it.
+/// Chooses the pose or place that a visit names. Returns whether the goal has it.
 bool choose_for(const Visit& visit, const library::Frame& frame, core::Robot& robot, core::OpenGoal& goal) {
   if (visit.place) {
     const bool may = goal.tolerance > 0.0 && !visit.choice;
@@ -80,7 +80,7 @@ bool choose_for(const Visit& visit, const library::Frame& frame, core::Robot& ro
   return true;
 }
 
-/// Settles what is open by the visits of the plan or, if they say nothing of it, by its actions.
+/// Settles open goals by the visits of the plan. If the visits say nothing about a goal, by its actions.
 void settle_choices(const RobotPlan& plan, std::span<const core::Action> actions, const library::Frame& frame,
                     core::Robot& robot, std::vector<core::OpenGoal>& open, const core::StopCondition& stop) {
   bool is_told = false;
@@ -93,13 +93,13 @@ void settle_choices(const RobotPlan& plan, std::span<const core::Action> actions
     goal->is_settled = is_told = true;
   }
   if (is_told) return core::choose_unserved(robot, open, actions, stop);
-  // A choice of the problem is that of its own actions.
+  // In the problem, a choice is about the robot's own actions.
   for (core::OpenGoal& goal : open) goal.is_told = false;
   core::settle_by_actions(robot, open, actions, true, stop);
 }
 
-/// Gives goals that have several poses those at which the plans serve them, or committed actions of robots
-/// without a plan.
+/// Gives goals with several poses the poses at which the plans serve them. For robots without a plan, the
+/// committed actions count.
 void settle_choices(std::span<const RobotPlan> plans, const std::vector<core::RobotPlan>& made,
                     const library::Frame& frame, library::ReadFleet& fleet, const core::StopCondition& stop) {
   std::vector<bool> is_planned(fleet.robots.size(), false);
