@@ -13,7 +13,7 @@ constexpr double kFirstIgnored = 0.125;
 /// A robot for which others were ejected is protected during the next call, and up to so many. With 10, two
 /// robots of a crowd ejected each other for ever.
 constexpr std::size_t kMaxProtectedCalls = 30;
-/// A search that takes more expansions counts as failed: another one ignores more robots.
+/// A search that takes more expansions counts as failed. The next search ignores more robots.
 constexpr std::int64_t kMaxEjectionExpansions = 5'000;
 /// Finds paths with fewer expansions than the usual weight. They are improved later.
 constexpr double kEjectionWeight = 2.0;
@@ -52,7 +52,7 @@ void EjectionSearch::sort_by_ejection(Robots& planned, const std::vector<int>& f
   });
 }
 
-/// Returns how many robots to ignore in each attempt, ascending; none of them is protected.
+/// Returns how many robots to ignore in each attempt, ascending. Protected robots are not among them.
 std::vector<std::size_t> EjectionSearch::counts_to_ignore(const Robots& planned) const {
   const auto max_count = static_cast<std::size_t>(
       std::count_if(planned.begin(), planned.end(), [&](std::size_t other) { return !is_protected(other); }));
@@ -65,8 +65,9 @@ std::vector<std::size_t> EjectionSearch::counts_to_ignore(const Robots& planned)
   return counts;
 }
 
-/// Improves a path: tries to do without half of the robots that it conflicts with, then without a quarter,
-/// and so on down to single ones, beginning with those at the end of `planned`.
+/// Improves a path by conflicting with fewer robots. Tries to do without half of the robots that it conflicts
+/// with, then without a quarter, and so on down to single robots. Begins with the robots at the end of
+/// `planned`.
 SearchResult EjectionSearch::eject_fewer(std::size_t robot, SearchResult result, const Robots& planned) {
   const Robots conflicting = state_.reservations().conflicting_robots(robot, *result.trajectory);
   Robots candidates;

@@ -36,7 +36,7 @@ constexpr std::size_t kStopStride = 64;
 constexpr double kBehind = 1e-6;
 constexpr int kMaxSweeps = 8;
 
-/// A robot passes the goal of another one.
+/// A robot passes the goal of another robot.
 struct Passage {
   std::size_t other = 0;
   std::size_t stage = 0;
@@ -149,8 +149,8 @@ class ExpectedArrivals {
     return ranks;
   }
 
-  /// Returns false if `stop` is met first, or if the search spaces of all robots are too much to keep: then
-  /// those of the first robots are kept.
+  /// Returns false if `stop` is met first, or if the search spaces of all robots need too much memory. Then
+  /// the spaces of the first robots are kept.
   bool find_ways_alone(const StopCondition& stop) {
     for (std::size_t k = 0; k < robots_.size(); ++k) {
       if (stop.met() || !find_way_alone(robots_[k], stop) || is_memory_full()) return false;
@@ -246,8 +246,8 @@ class ExpectedArrivals {
     return true;
   }
 
-  /// Whether the robot can get around a goal, past the obstacles and other goals, for less than its robot
-  /// would lose: in two straight moves beside it.
+  /// Whether the robot can get around a goal for less than the goal's robot would lose: in two straight moves
+  /// beside it, past the obstacles and other goals.
   bool has_room_beside(std::size_t robot, const Passage& passage) const {
     const View& view = instance_.views(robot)[passage.stage];
     const double reach = view.body.pair_radius + resting_radius(passage.other);
@@ -267,7 +267,7 @@ class ExpectedArrivals {
     return false;
   }
 
-  /// Whether the robot may move so, at about the time of a passage, without another one.
+  /// Whether the robot can make this move at about the time of a passage without meeting another robot.
   bool is_free(std::size_t robot, const Segment& path, const Passage& passage) const {
     const View& view = instance_.views(robot)[passage.stage];
     if (!view.free_space->may_sweep(path.from, path.to, view.body.wall_radius)) return false;

@@ -22,9 +22,9 @@ constexpr int kLongestCorridor = 256;
 
 /// By vertex and direction, the cost of a step.
 using StepCosts = std::vector<std::array<std::uint8_t, 4>>;
-/// The cost of a step for which nothing else counts, and the most that others add who go the opposite way. In
-/// a warehouse with corridors of one cell, 600 and 1000 robots take 0.63 of the time of all together by it;
-/// half and one and a half times as much do as well, and costs for all others who pass do worse.
+/// The cost of a step for which nothing else counts, and the most that robots add who go the opposite way. In
+/// a warehouse with corridors of one cell, 600 and 1000 robots then take 0.63 of the total time. Half and one
+/// and a half times as much are as good. Costs for all other robots that pass are worse.
 constexpr std::uint8_t kStep = 8;
 constexpr double kMaxAgainstTraffic = 8.0;
 
@@ -87,9 +87,9 @@ class StepDistances {
   std::array<std::vector<int>, 256> due_;              // by cost; more than a step costs
 };
 
-/// Costs by which robots go with the traffic: each step costs more, the more of the robots that would pass
-/// there alone go the opposite way. So most corridors get a direction (after Chen et al., AAAI 2024).
-/// Unfinished if `stop` is met.
+/// Costs by which robots go with the traffic. A step costs more if more of the robots that would pass there
+/// alone go the opposite way. So most corridors get a direction (after Chen et al., AAAI 2024). Unfinished if
+/// `stop` is met.
 StepCosts against_traffic(const StepProblem& problem, const StepDistances& alone, const StepCosts& even,
                           const StopCondition& stop) {
   std::vector<std::array<std::uint32_t, 4>> passing(even.size(), {0, 0, 0, 0});
@@ -126,7 +126,7 @@ StepCosts against_traffic(const StepProblem& problem, const StepDistances& alone
 }
 
 /// Makes the next configuration: Priority Inheritance with Backtracking. A robot that goes to a vertex makes
-/// the one that is there go away first, as if that had its priority.
+/// the robot there go away first, as if that robot had its priority.
 class NextConfiguration {
  public:
   NextConfiguration(const StepProblem& problem, Random& random, const StopCondition& stop)
@@ -213,7 +213,8 @@ class NextConfiguration {
     return choices;
   }
 
-  /// Returns false if the robot has to stay where another one wants to go. Depth: at most one for each robot.
+  /// Returns false if the robot has to stay where another robot wants to go. Depth: at most one for each
+  /// robot.
   bool move(std::size_t robot) {
     const int from = (*from_)[robot];
     Choices choices = choices_of(robot);
@@ -242,7 +243,7 @@ class NextConfiguration {
     return false;
   }
 
-  /// Lets a robot follow to where another one leaves, if it fits there.
+  /// Lets a robot follow to a vertex that another robot leaves, if it fits there.
   void pull(std::size_t robot, int vertex) {
     const auto& next = neighbours(robot, (*from_)[robot]);
     if (to_[robot] != StepProblem::kNone || next_[index(vertex)] != kNobody) return;
@@ -253,9 +254,9 @@ class NextConfiguration {
     return problem_.graphs[problem_.movers[robot].graph][index(vertex)];
   }
 
-  /// In a corridor, two robots that want to pass each other go to where it ends, one pulling the other one
-  /// behind it, and exchange their order there (Okumura, IJCAI 2023). Returns whom this robot has to pull, if
-  /// anybody. `best`: where it wants to go.
+  /// In a corridor, two robots that want to pass each other go to its end, one pulling the other behind it,
+  /// and exchange their order there (Okumura, IJCAI 2023). Returns which robot this one has to pull, if any.
+  /// `best`: where it wants to go.
   std::int32_t robot_to_pull(std::size_t robot, int best) const {
     const int here = (*from_)[robot];
     if (best == here) return kNobody;
@@ -347,9 +348,10 @@ class NextConfiguration {
   const Configuration* from_ = nullptr;
   const StepDistances* distances_ = nullptr;
   Configuration to_;
-  std::vector<std::int32_t> here_;  // by vertex: the robot that is there now, and the one that will be
+  std::vector<std::int32_t> here_;  // by vertex: the robot that is there now, and the robot that will be
+                                    // there
   std::vector<std::int32_t> next_;
-  std::vector<bool> is_asked_;  // by robot: waits for another one to go away
+  std::vector<bool> is_asked_;  // by robot: whether it waits for another robot to go away
 };
 
 /// A fleet on a graph, see ConfigurationSearch.

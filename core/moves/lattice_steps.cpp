@@ -13,8 +13,8 @@
 namespace fleetplan::core {
 namespace {
 
-/// The root of 1.25: if two neighbouring vertices are farther than so many spacings from a point, no part of
-/// the step between them is nearer to it than one spacing.
+/// The root of 1.25. If two neighbouring vertices are farther than so many spacings from a point, every part
+/// of the step between them is at least one spacing from it.
 constexpr double kClear = 1.1181;
 /// The most vertices of all graphs together: 64 MB.
 constexpr std::size_t kMaxVertices = 4'000'000;
@@ -197,7 +197,7 @@ class TimedSteps {
     return phases(step, fastest_profile(path.length(), body.linear_speed, body.linear_inertia));
   }
 
-  /// The time from which on a robot may set out on a step to a vertex, after the last one that was there.
+  /// The time from which on a robot may set out on a step to a vertex, after the last robot that was there.
   double free_from(const Vertex& vertex, const std::vector<TimedSegment>& step, double radius) const {
     double t = vertex.others_until;  // they may be wider than the last one
     if (vertex.last.phases.empty()) return t;

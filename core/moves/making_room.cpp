@@ -144,8 +144,8 @@ class MakingRoom {
     return sites;
   }
 
-  /// Where the first robot stands on the left of the way (`side` 1) or on the right (-1), and the second one
-  /// on the other side, so that neither touches the other; none if there is no room.
+  /// Where the first robot stands on the left of the way (`side` 1) or on the right (-1), and the second
+  /// robot on the other side, so that they do not touch. None if there is no room.
   std::optional<PassingPlaces> places_beside(const Site& site, double side, std::size_t first,
                                              std::size_t second) const {
     const Position aside = side * left_of(site.ahead);

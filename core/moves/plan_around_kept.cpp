@@ -188,8 +188,8 @@ class PlanningAroundKept {
     result_.unplanned = std::move(partial.unplanned);
   }
 
-  /// Plans all robots in steps, to their goals, if one has gained nothing for as long as the horizon and
-  /// gains nothing now: nobody who keeps a plan makes way for it.
+  /// Plans all robots in steps, to their goals, if a robot has gained nothing for as long as the horizon and
+  /// gains nothing now. Robots that keep their plans do not make way for it.
   void pass_those_in_the_way() {
     const auto& horizon = state_.instance().options().horizon;
     if (!horizon || movers_.size() > FleetSteps::kMaxWholeWays || time_.all.met()) return;
@@ -202,7 +202,7 @@ class PlanningAroundKept {
     result_.cut_off = result_.cut_off || outcome == StepsOutcome::cut_off;
   }
 
-  /// Returns the robots whose trajectory is not the one that they had at first.
+  /// Returns the robots whose trajectory differs from their first one.
   std::vector<std::size_t> robots_that_gave_way() const {
     std::vector<std::size_t> robots;
     for (const std::size_t robot : movers_) {

@@ -26,8 +26,8 @@ constexpr std::size_t kFewRobots = 4;
 constexpr int kMaxOrdersWithoutDeadline = 10;
 /// The most robots that are planned again, one after the other, after a plan in steps.
 constexpr std::size_t kMaxReplanned = 16;
-/// The failed attempts after which robots of different sizes are planned again in that order, if they were
-/// planned in another one.
+/// The failed attempts after which robots of different sizes are planned again in the order of sizes, if they
+/// were planned in another order.
 constexpr std::int64_t kMaxFailures = 15;
 
 /// Plans every robot once, in the given order.
@@ -172,7 +172,7 @@ class PrioritizedPlanning {
     return !stop_.met();
   }
 
-  /// Returns whether it keeps a plan in which all robots but those that are given up move in steps.
+  /// Returns whether it keeps a plan in which all robots move in steps, except the robots that are given up.
   bool moves_in_steps(const std::vector<std::size_t>& given_up) {
     if (!steps_succeed(given_up, time_.keeping)) return false;
     keep_if_better({}, given_up, Effort::brief, time_.keeping);
@@ -194,10 +194,10 @@ class PrioritizedPlanning {
     best_ = PlanSnapshot{std::move(plan), state_.reservations().snapshot()};
   }
 
-  /// A robot with which what is planned up to the horizon may go on like that for ever: the one whose goal is
-  /// the oldest has no plan beyond it, since others would have to go back a long way, or one that has arrived
-  /// leaves its goal and does not come back. Robots whose goals lie in each other's way would come and leave
-  /// in turn.
+  /// A robot that may come and go for ever with plans up to the horizon. The robot whose goal is the oldest
+  /// has no plan beyond the horizon, because others would have to go back a long way. Or a robot that has
+  /// arrived leaves its goal and does not come back. Robots whose goals lie in each other's way would come
+  /// and leave in turn.
   std::optional<std::size_t> shuttling_robot() const {
     if (!state_.instance().options().horizon || order_.empty()) return std::nullopt;
     if (order_.size() > FleetSteps::kMaxWholeWays) return std::nullopt;

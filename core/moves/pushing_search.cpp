@@ -123,7 +123,7 @@ class FleetOnPlaces {
   const StopCondition& stop_;
   const Configuration* from_ = nullptr;
   Configuration to_;
-  std::vector<bool> is_asked_;  // by robot: waits for another one to go away
+  std::vector<bool> is_asked_;  // by robot: whether it waits for another robot to go away
 };
 
 }  // namespace

@@ -20,15 +20,15 @@ constexpr int kMaxFailuresOfRobot = 40;
 /// How often robots that yield are asked to make way for one robot. It may be in a cycle with others after
 /// that, which changes of the order break.
 constexpr int kMaxAsksForRobot = 5;
-/// The failures of a robot after which others are no longer ejected for it: it may be in a cycle that only a
-/// start delay breaks. In crowds that fill two fifths of the floor hardly any robot fails so often.
+/// The failures of a robot after which others are no longer ejected for it. It may be in a cycle that only a
+/// start delay breaks. In crowds that fill two fifths of the floor, hardly any robot fails so often.
 constexpr int kMaxEjectionsForRobot = 10;
 /// The expansions after which a quick search has failed, if they exceed half of the vertices, too: most often
 /// there is no path. In the paper's crowds none takes 5,000.
 constexpr std::int64_t kMaxQuickExpansions = 20'000;
-/// The expansions in all from which on a fleet is so large that the time matters more than the last percents
-/// of its cost: a search that takes more than kFewExpansions is then made again with the greater weight. 1000
-/// robots on den520d take 0.7 of the time by it, for 1.02 of the flowtime.
+/// From this number of expansions in all, the time of a large fleet matters more than the last percents of
+/// its cost. A search that takes more than kFewExpansions is then made again with the greater weight. 1000
+/// robots on den520d then take 0.7 of the time, for 1.02 of the flowtime.
 constexpr std::int64_t kManyExpansions = 400'000;
 constexpr std::int64_t kFewExpansions = 500;
 constexpr double kGreedyWeight = 4.0;
@@ -37,8 +37,8 @@ constexpr double kCrowdWeight = 2.0;
 /// Expansions for each robot after which all are planned at once, in steps. Disks that fill two fifths of the
 /// paper's crowds take up to 1200; in a warehouse with corridors of one cell, 600 robots take 8000.
 constexpr std::int64_t kExpansionsBeforeSteps = 1'500;
-/// Failures, in addition to one for each robot, after which they are, too: 400 disks take less than 250, and
-/// 800 on 1024 cells come to no end.
+/// Failures, in addition to one for each robot, after which all robots are planned in steps, too. 400 disks
+/// take less than 250, and 800 on 1024 cells come to no end.
 constexpr std::int64_t kFailuresBeforeSteps = 100;
 
 constexpr auto kAnyNumber = std::numeric_limits<std::int64_t>::max();
@@ -215,7 +215,7 @@ class Repair {
     return result.trajectory->cost > in_time;
   }
 
-  /// What the robot may cost at most, past those that yield, to be worth it for one of them.
+  /// The most that the robot may cost past robots that yield, so that moving one of them is worth it.
   double max_cost(std::size_t robot, const SearchResult& in_place) const {
     if (!in_place.trajectory || in_place.trajectory->gains_nothing) return kForever;
     return in_place.trajectory->cost - cost_of_making_way(robot);
@@ -231,9 +231,9 @@ class Repair {
     return saved >= 0.0;
   }
 
-  /// Plans a robot past those that yield, if that is worth it compared to its trajectory around them. Of
-  /// these, the ones in its way are planned again, and those that have nothing else to do after all others.
-  /// Returns whether it has a plan now.
+  /// Plans a robot past robots that yield, if that is worth it compared to its trajectory around them. The
+  /// yielding robots in its way are planned again; those without goals of their own come after all others.
+  /// Returns whether the robot has a plan now.
   bool passes_yielding(std::size_t robot, const SearchResult& in_place) {
     ++asks_[robot];
     SearchSettings settings = quick_search_of(robot);
@@ -253,8 +253,9 @@ class Repair {
     return true;
   }
 
-  /// Plans others so that they leave the goal of this robot when they have been served, and then this one: so
-  /// it does not wait in their way out. Returns whether it has a plan now; if not, nothing has changed.
+  /// Plans others so that they leave the goal of this robot once they have been served, and then plans this
+  /// robot. So it does not wait in their way out. Returns whether it has a plan now; if not, nothing has
+  /// changed.
   bool comes_after(std::size_t robot, const std::vector<std::size_t>& others, double max_cost) {
     std::vector<std::pair<std::size_t, Trajectory>> before;
     for (const std::size_t other : others) {

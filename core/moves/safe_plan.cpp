@@ -15,8 +15,8 @@ namespace {
 
 using Reason = Unplanned::Reason;
 
-/// The searches for one robot, round by round: most robots that have a path find it soon, and a search that
-/// fails may take as long as hundreds that do not.
+/// The searches for one robot, round by round. Most robots that have a path find it soon. A search that fails
+/// may take as long as hundreds of successful searches.
 constexpr std::array<SearchSettings, 3> kRounds{{
     {.heuristic_weight = 2.0, .thorough = false, .max_expansions = 200},
     {.thorough = false, .max_expansions = 5'000},

@@ -15,8 +15,8 @@ constexpr float kFar = std::numeric_limits<float>::infinity();
 /// Chosen vertices are not joined if others join them by a way that is so many times as long.
 constexpr float kAboutAsGood = 1.3F;
 
-/// Chooses vertices, the one that is farthest from those before it first (Gonzalez, Theoretical Computer
-/// Science, 1985).
+/// Chooses vertices: first the vertex that is farthest from all vertices chosen before (Gonzalez, Theoretical
+/// Computer Science, 1985).
 class Choice {
  public:
   struct Border {
@@ -43,7 +43,7 @@ class Choice {
     }
   }
 
-  /// Of those that can be reached; -1 once the stop condition is met.
+  /// Of the vertices that can be reached; -1 once the stop condition is met.
   int nearest(const Position& position) {
     if (stop_.met_after(reachable_.size())) return -1;
     return *std::min_element(reachable_.begin(), reachable_.end(), [&](int a, int b) {

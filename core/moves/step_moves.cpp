@@ -37,7 +37,7 @@ bool StepMoves::serve(std::size_t k, std::uint32_t stage, std::uint32_t end, Ste
   return rest.t_ready <= rest.safe.end;
 }
 
-/// When a robot may rest at a place that it comes to from another one, with all loads that it has there.
+/// When a robot may rest at a place that it comes to from another place, with all its loads there.
 std::vector<SafeInterval> StepMoves::safe_intervals(std::size_t k, int from, int place, bool has_left,
                                                     double t_from) const {
   const StepPlaces& places = steps_.robot(k);

@@ -35,8 +35,8 @@ struct Resting {
   double radius = 0.0;  // metres, to other robots
 };
 
-/// Where a robot touches walls beside vertices of its lattice, and corridors are so narrow that two robots
-/// pass each other, or one the other in a dead end, only along the walls.
+/// Places where a robot touches walls, beside vertices of its lattice. In narrow corridors, two robots can
+/// pass each other only along the walls. The same holds for passing a robot in a dead end.
 class PlacesAtWalls {
  public:
   /// `vertices` are those with this view.
@@ -138,7 +138,7 @@ class PlaceSearch {
   }
 
  private:
-  /// The vertices of the robot, and those of these positions where it fits.
+  /// The vertices of the robot, and the positions of this list where it fits.
   std::unique_ptr<Vertices> vertices_with(const std::vector<Position>& wanted, std::size_t robot,
                                           std::size_t stage, const StopCondition& stop) const {
     auto own = std::make_unique<Vertices>(instance_, robot, stage, stop);
@@ -157,8 +157,8 @@ class PlaceSearch {
 
   const Vertices& vertices(std::uint32_t stage) const { return *vertices_[views_.number(stage)]; }
 
-  /// The stage in which a robot is that comes to a vertex in a stage: a goal there is served, but the last
-  /// one, where it may come again.
+  /// The stage of a robot that comes to a vertex in a stage. A goal at the vertex is served, except the last
+  /// goal, where the robot may come again.
   std::uint32_t stage_after(std::uint32_t stage, int vertex, const Position& position) const {
     const std::uint32_t own = last_stage_ - (itinerary_.yields() ? 0U : 1U);
     while (stage < own && vertices(stage).goals()[stage].vertex == vertex &&
@@ -214,7 +214,7 @@ class PlaceSearch {
            vertices(place.stage).goals()[place.stage].vertex == vertex;
   }
 
-  /// The number of a vertex among those of another stage, where a goal is served.
+  /// The number of a vertex among the vertices of another stage, where a goal is served.
   int vertex_in(std::uint32_t stage, std::uint32_t before, int vertex, const Position& position) const {
     if (views_.number(stage) == views_.number(before)) return vertex;
     const auto& goals = vertices(stage).goals();

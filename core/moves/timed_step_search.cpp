@@ -9,7 +9,8 @@ namespace {
 
 /// Moves between two checks of the stop condition, where queries are quick.
 constexpr std::size_t kMovesBetweenPolls = 16;
-/// Nodes with the same places and intervals, none of which is in every respect as early as another one.
+/// The most nodes with the same places and intervals. Each is earlier than each other one in at least one
+/// respect.
 constexpr std::size_t kMaxAlike = 8;
 
 }  // namespace
@@ -151,8 +152,8 @@ void TimedStepSearch::add(const Node& node, std::size_t k, int place, const Step
   open_.emplace(node.way + SingleMoveSearch::kGreed * left, number);
 }
 
-/// Whether no node with the same places and intervals is as early as this one. Those that it makes useless
-/// are forgotten.
+/// Whether no node with the same places and intervals is as early as this node. Forgets nodes that this node
+/// makes useless.
 bool TimedStepSearch::is_early(std::uint32_t number, std::uint32_t tuple) {
   std::size_t alike = 0;
   std::uint32_t* link = &first_of_tuple_[tuple];
@@ -171,8 +172,8 @@ bool TimedStepSearch::is_early(std::uint32_t number, std::uint32_t tuple) {
   return alike < kMaxAlike;
 }
 
-/// Whether all that can follow on one node can follow on another one, which has the same places and
-/// intervals, at the same times.
+/// Whether everything that can follow on one node can follow on the other node at the same times. Both have
+/// the same places and intervals.
 bool TimedStepSearch::is_no_later(std::uint32_t a, std::uint32_t b) const {
   const double others_ended =
       nodes_[a].moved == nodes_[b].moved ? nodes_[a].others_ended : nodes_[a].free_from;
