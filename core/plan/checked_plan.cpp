@@ -48,8 +48,8 @@ Plan without_moves(const Plan& plan, const Problem& problem, const StopCondition
   return left;
 }
 
-/// Returns the condition for the check of the plan that was made. One that was cancelled may still be checked
-/// quickly.
+/// Returns the condition for the check of the plan that was made. A plan that was cancelled may still be
+/// checked quickly.
 StopCondition stop_of_check(const StopCondition& planning, const budget::CheckPatience& patience) {
   const auto now = StopCondition::Clock::now();
   if (planning.cancelled()) return planning.even_if_cancelled(now + patience.if_cancelled);

@@ -194,7 +194,7 @@ std::size_t first_planned_move(const Robot& robot, const Trajectory& trajectory)
   return static_cast<std::size_t>(first - trajectory.moves.begin());
 }
 
-/// The direction of a move and of those that go on from it.
+/// The direction of a move and of the moves that go on from it.
 double heading_from(const std::vector<TimedMove>& moves, std::size_t first) {
   std::size_t last = first;
   while (last + 1 < moves.size() && moves[last + 1].continues) ++last;

@@ -161,8 +161,8 @@ class PlansThatHold {
            *violation.t_begin < until && violation.t <= until + kMaxTolerance;
   }
 
-  /// Whether the violation is one of what the robot does in any case: of its commitment; or of a margin,
-  /// which is kept from all that a robot without a plan does, except where it stays.
+  /// Whether the violation is about what the robot does in any case. It is a violation of its commitment, or
+  /// of a margin. The margin is kept from everything that a robot without a plan does, except where it stays.
   bool is_with_commitment(const Violation& violation, std::size_t robot) const {
     if (violation.kind == Violation::Kind::margin && !kept_[robot]) return true;
     return violation.t_begin.value_or(violation.t) < robots_[robot].committed_until();
@@ -174,7 +174,7 @@ class PlansThatHold {
     for (auto& [higher, lower] : conflicts) {
       if (rank[lower] < rank[higher]) std::swap(higher, lower);
     }
-    // The order is that of the lower robot, so that the higher one is decided by then.
+    // In the order of the lower robot, so that the higher robot is already decided.
     std::sort(conflicts.begin(), conflicts.end(), [&](const Pair& a, const Pair& b) {
       return std::pair(rank[a.second], rank[a.first]) < std::pair(rank[b.second], rank[b.first]);
     });

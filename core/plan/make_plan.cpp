@@ -68,8 +68,8 @@ bool may_help(const Unplanned& robot, const std::vector<OpenGoal>& open) {
          std::any_of(open.begin(), open.end(), [](const OpenGoal& goal) { return goal.may_widen(); });
 }
 
-/// Makes robots that are unplanned because of their poses give them up. Returns whether any of them may get
-/// another one.
+/// Makes robots that are unplanned because of their poses give up these poses. Returns whether any of them
+/// may get another pose.
 bool give_up_poses(const Plan& plan, PlanTask& task, const StopCondition& stop) {
   OpenFleet& open = *task.open;
   std::vector<std::size_t> robots;
@@ -130,8 +130,8 @@ class PlanMaker {
     return finished;
   }
 
-  /// Returns the planner's plan, or one that needs no search if the memory does not suffice for any other.
-  /// Plans are shown only if fewer robots than `fewer_than` are unplanned.
+  /// Returns the planner's plan, or a plan that needs no search if the memory does not suffice. Plans are
+  /// shown only if fewer robots than `fewer_than` are unplanned.
   Plan planned(const PlanTask& task, std::size_t fewer_than) {
     times_.parts.begin(PlanPart::first_plan);
     std::optional<CheckingObserver> checking;

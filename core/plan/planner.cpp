@@ -97,8 +97,8 @@ bool is_final(const KeptPlans& previous, const Problem& problem, const PlanOptio
          });
 }
 
-/// Returns the previous plans from which planning begins. With a horizon, robots that keep theirs would be in
-/// the way of others for good: no robot fails that could wait before them, and so no robot is raised above
+/// Returns the previous plans from which planning begins. With a horizon, robots that keep their plans would
+/// block others for good: a robot that could wait before them does not fail, so it is never raised above
 /// them. So either all robots keep their plans, or, with PlanOptions::Replan::all, none.
 KeptPlans plans_to_begin_with(const Problem& problem, const PlanOptions& options, const StopCondition& stop) {
   KeptPlans previous = keep_previous_plans(problem, options, stop);
@@ -165,9 +165,9 @@ bool undo_vain_move(PlanState& state, std::size_t robot, std::int64_t& expansion
   return result.trajectory.has_value();
 }
 
-/// Lets robots that make way (Robot::yields) stay where they are done, or nearer, if the others of the plan
-/// in `state` do not need that any more, until no such robot is left. Previous plans are left as they are.
-/// Returns whether `stop` ended it early.
+/// Lets robots that make way (Robot::yields) stay where they are done, or nearer, if the other robots of the
+/// plan in `state` no longer need the move. Repeats this until no such robot is left. Previous plans are left
+/// as they are. Returns whether `stop` ended it early.
 bool undo_vain_moves(PlanState& state, const StopCondition& stop) {
   FleetReservations& reservations = state.reservations();
   std::vector<std::size_t> robots;
@@ -179,7 +179,7 @@ bool undo_vain_moves(PlanState& state, const StopCondition& stop) {
   if (stop.met()) return true;
   reservations.resume();
   std::vector<std::int64_t> expansions_left(state.instance().size(), kMaxExpansions);
-  // One that no longer makes way may have been what others made way for.
+  // Other robots may have made way for a robot that no longer makes way.
   for (bool is_any_undone = true; is_any_undone;) {
     is_any_undone = false;
     for (const std::size_t robot : robots) {
@@ -194,8 +194,8 @@ bool undo_vain_moves(PlanState& state, const StopCondition& stop) {
   return false;
 }
 
-/// Finds the unavoidable collisions, and names them in `unplanned` as the reason of robots that have no way,
-/// or no goal, and stay where something passes.
+/// Finds the unavoidable collisions. If a robot has no way or no goal, and stays where something passes,
+/// `unplanned` names the collision as the reason.
 UnavoidableCollisions find_unavoidable(const FleetReservations& reservations,
                                        std::vector<std::optional<Unplanned>>& unplanned,
                                        const StopCondition& stop) {
