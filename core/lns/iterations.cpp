@@ -156,8 +156,8 @@ constexpr SearchSettings kProof{
 /// they gain, if anything.
 constexpr int kTriesOfProof = 1000;
 constexpr double kLeastSmoothed = 1e-4;
-/// The effort for tests whether a robot can become cheaper: expansions at first, and as a share of those of
-/// the search.
+/// The effort for tests whether a robot can become cheaper: expansions at first, and as a share of the
+/// expansions of the search.
 constexpr std::int64_t kFirstProofExpansions = 1'000;
 constexpr std::int64_t kProofShare = 8;
 
@@ -250,13 +250,13 @@ namespace {
 /// search fails. Small gains count too, so one iteration in kIterationsPerAnyGain accepts any gain.
 constexpr double kMinGainShare = 0.15;
 constexpr std::size_t kIterationsPerAnyGain = 4;
-/// Searches for each robot until much is smoothed, if not as many as there are robots have been in vain
-/// before: at first, searches gain more.
+/// Much smoothing starts after this many searches per robot, or earlier, once as many searches as there are
+/// robots have failed. At first, searches gain more.
 constexpr std::int64_t kSearchesPerRobot = 50;
 /// The tries to smooth a path until then.
 constexpr int kFewTries = 25;
-/// A change may make the flowtime longer by this share of the mean delay of the robots, which leads out of
-/// local optima (threshold accepting; Dueck and Scheuer, 1990).
+/// A change may make the flowtime longer by this share of the robots' mean delay. This leads out of local
+/// optima (threshold accepting; Dueck and Scheuer, 1990).
 constexpr double kMaxLossShare = 0.2;
 /// Vain iterations for each robot until the search strays: from then on, the loss doubles with as many
 /// iterations as there are robots. After kDoublings it returns to the best plan, and strays again.

@@ -18,9 +18,9 @@
 namespace fleetplan::core {
 namespace {
 
-/// The lag of the pipeline is this share of the robots, within bounds: long enough to keep several threads
-/// busy while one step takes long, short enough that changes of steps that overlap seldom conflict. For the
-/// makespan they do, as the robot that arrives last is part of many.
+/// The lag of the pipeline is this share of the robots, within bounds. It is long enough to keep several
+/// threads busy while one step takes long. It is short enough that changes of overlapping steps seldom
+/// conflict. For the makespan they often do, because the robot that arrives last is part of many.
 constexpr std::size_t kRobotsPerLag = 10;
 constexpr std::size_t kLeastLag = 4;
 constexpr std::size_t kMaxLag = 16;
@@ -29,8 +29,8 @@ constexpr std::size_t kMaxThreads = 4;
 /// Steps of a round with a report before it, and without: at its end, threads wait for each other.
 constexpr std::size_t kReportedRound = 32;
 constexpr std::size_t kRound = 1024;
-/// Steps with a search for each robot before vertices get more neighbours (WorkspacePool::add_moves), and
-/// twice as many before they get more again: first, as many improvements as possible count, later, good ones.
+/// Steps with a search for each robot before vertices get more neighbours (WorkspacePool::add_moves). Twice
+/// as many before they get more again. At first, the number of improvements matters; later, their quality.
 constexpr std::size_t kStepsPerRobot = 8;
 /// Iterations without an improvement after which it is tested whether one is possible.
 constexpr int kVainIterations = 32;

@@ -122,8 +122,8 @@ namespace {
 
 /// A gain below this is rounding, weighted seconds.
 constexpr double kLeastGain = 1e-9;
-/// Estimates of the cost to go may be too high by this share, about: a search that accepts no suboptimality
-/// discards by them only what exceeds its bound by so much.
+/// The share by which estimates of the cost to go may be too high, about. A search that accepts no
+/// suboptimality uses them only to discard what exceeds its bound by this share.
 constexpr double kEstimateError = 0.1;
 /// The effort of a search before its first expansion, and of smoothing a path: at first, and for each path
 /// that is timed; in expansions.
