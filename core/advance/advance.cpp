@@ -129,8 +129,7 @@ void renumber(ActionSequence& actions, std::size_t visited) {
   }
 }
 
-/// The number of these goals that the committed actions of a robot serve, up to the last one that changes its
-/// load.
+/// Counts the goals that a robot's committed actions serve, up to the last goal that changes its load.
 std::size_t count_of_passed(const Robot& next, const std::vector<Goal>& goals) {
   if (next.committed.empty()) return 0;
   Robot passing = next;
@@ -141,8 +140,8 @@ std::size_t count_of_passed(const Robot& next, const std::vector<Goal>& goals) {
   return count;
 }
 
-/// Gives a robot other goals than those that are left. Those that its commitment passes, and that change its
-/// load, come before them. A robot that gets none parks where its commitment ends.
+/// Gives a robot new goals instead of the goals that are left. Goals that its commitment passes and that
+/// change its load come before them. A robot that gets no new goals parks where its commitment ends.
 void set_other_goals(Robot& next, std::vector<Goal> left, const std::vector<Goal>& other) {
   left.resize(count_of_passed(next, left));
   for (Action& action : next.committed) {
@@ -196,8 +195,8 @@ Located locate(const Robot& robot, const Execution& execution, const Moment& mom
   return {progress.value_or(planned), !progress};
 }
 
-/// Lets an early robot drive on where its plan has no stop between the translation under way and the next
-/// one, and wait for its planned time after that.
+/// Lets an early robot drive on if its plan has no stop between the translation under way and the next one.
+/// After this line, it waits for its planned time.
 void wait_after_line(ActionSequence& rest) {
   std::size_t last = 2;
   while (last + 1 < rest.size() && goes_on(rest[last], rest[last + 1])) ++last;
@@ -270,7 +269,7 @@ bool needs_time_to_stop(const Robot& robot) {
   return robot.linear_inertia().is_limited || robot.angular_inertia().is_limited;
 }
 
-/// Whether the actions from an index on have the profiles that those of a plan for the robot have.
+/// Whether the actions from an index on have profiles as in a plan for the robot.
 bool have_profiles(const ActionSequence& actions, std::size_t first, const Robot& robot) {
   const auto has_its_own = [&](const Action& action) {
     return action.profile || !robot.limits_changes_of_speed(action.type);
@@ -287,8 +286,8 @@ bool is_accepted(const ActionSequence& previous, const Robot& robot) {
          count_of_executable(robot, previous) == previous.size();
 }
 
-/// Ends a commitment where the robot takes a load with which it cannot go on like that: one that is held, or
-/// gets other goals, may serve a goal where its plan did not.
+/// Ends a commitment where the robot takes a load with which it cannot execute the next actions. A robot that
+/// is held, or gets new goals, may serve a goal where its plan did not.
 void end_before_unfit_load(Robot& robot) {
   const std::size_t count = count_of_executable(robot, robot.committed);
   if (count > 0 || robot.committed_speed() == 0.0) robot.committed.resize(count);

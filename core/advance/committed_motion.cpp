@@ -45,7 +45,8 @@ struct Meeting {
   bool second_moves;
 };
 
-/// When a disk that becomes larger at the end of a service is too near to another one: it is not to end.
+/// When a disk that becomes larger at the end of a service is too near to another disk. The service must not
+/// end then.
 std::optional<Meeting> overlap_by_growth(const Piece& a, const Piece& b, double distance) {
   const double begin = std::max(a.begin, b.begin);
   const bool a_grows = a.grows && begin == a.begin;
@@ -76,7 +77,7 @@ class Clearing {
     for (std::size_t robot = 0; robot < robots_.size() && !obstacles_.empty(); ++robot) {
       stop_before_obstacles(robot);
     }
-    // Bounded: a robot waits again when its commitment ends at least kSameEnd earlier, or when one is
+    // Bounded: a robot waits again in two cases. Its commitment ends at least kSameEnd earlier, or it is
     // committed to more of its course, each time to more actions than before.
     while (!waiting_.empty()) {
       const std::size_t robot = waiting_.back();
@@ -110,10 +111,10 @@ class Clearing {
     return (a.start.position - b.start.position).norm() - a.radius - b.radius;
   }
 
-  /// What two robots keep between their bare disks: the margins of both; of robots that are nearer than that
-  /// at the moment, half of what they have, and all of it if that is little. Otherwise robots that are
-  /// measured again and again would creep up to each other, until errors of their poses are more than what is
-  /// left.
+  /// The distance that two robots keep between their bare disks: the margins of both. If they are nearer at
+  /// the moment, they keep half of their distance, or all of it if it is small. Otherwise, robots that are
+  /// measured again and again would creep up to each other, until the rest is less than the errors of their
+  /// poses.
   double margin(std::size_t robot, std::size_t other) const {
     const double now = gap_now(robot, other);
     const double whole = margins_[robot] + margins_[other];
@@ -127,9 +128,10 @@ class Clearing {
     return index < braking.size() && !braking[index].empty() ? braking[index].back().t_end : 0.0;
   }
 
-  /// Stops both where they begin to be too near while the other one is committed, or as soon as they can.
-  /// Where that is too late, they go on as planned, if that is better; otherwise their commitments end where
-  /// their disks touch, if both are certain to be there: POST /v1/plan refuses commitments that collide.
+  /// Stops both robots where they begin to be too near while the other is committed, or as soon as they can.
+  /// If that is too late, they go on as planned, if that is better. Otherwise, if both are certain to be
+  /// there, their commitments end where their disks touch, because POST /v1/plan refuses commitments that
+  /// collide.
   void part(std::size_t robot, std::size_t other) {
     if (pieces_[other].size() == 1 || !may_meet(robot, other)) return;
     if (const auto meeting = first_meeting(robot, other)) {
@@ -149,7 +151,7 @@ class Clearing {
     }
   }
 
-  /// Ends a commitment so early that the robot does not stand where another one, which cannot stop, comes.
+  /// Ends a commitment so early that the robot does not stand in the way of another robot that cannot stop.
   void give_way(std::size_t robot, std::size_t other) {
     constexpr int kHalvings = 40;  // of a commitment, to find its end
     double late = robots_[robot].committed_until();
@@ -193,8 +195,8 @@ class Clearing {
     return !do_meet;
   }
 
-  /// Commits two robots, of which one cannot stop, to more of what they do as planned: one of them if that is
-  /// enough, to where it stands by its plan. Returns false if they meet nevertheless.
+  /// Commits two robots, at least one of which cannot stop, to more of their plans, until they stand by their
+  /// plans. If it suffices, only one of them. Returns false if they meet nevertheless.
   bool drive_on(std::size_t robot, std::size_t other, double margin) {
     std::size_t mine = 0;  // actions of its course; 0 for the commitment as it is
     std::size_t theirs = 0;
@@ -214,9 +216,9 @@ class Clearing {
     return false;
   }
 
-  /// The first actions of a robot's course, more than `count`, than what it is committed to, and than what it
-  /// has driven on to before, at whose end it has driven and stands; `count` if there are none. So each robot
-  /// drives on no more often than its course has actions, even if its commitment is cut again.
+  /// The number of first actions of a robot's course after which it has driven and stands. It is more than
+  /// `count`, than its commitment, and than what it has driven on to before; `count` if there is none. So
+  /// each robot drives on at most as often as its course has actions, even if its commitment is cut again.
   std::size_t next_stop(std::size_t index, std::size_t count) const {
     if (index >= motions_.courses.size()) return count;
     const ActionSequence& course = motions_.courses[index];
@@ -243,7 +245,7 @@ class Clearing {
   }
 
   /// Whether two robots keep apart, and clear of obstacles, if they go on for so many actions of their
-  /// courses. One that does not go on may stop as soon as it can.
+  /// courses. A robot that does not go on may stop as soon as it can.
   bool parts(std::size_t robot, std::size_t mine, std::size_t other, std::size_t theirs, double margin) {
     const auto pieces = [&](std::size_t index, std::size_t count) {
       return count > 0 ? pieces_if(index, first_of_course(index, count)) : pieces_[index];
@@ -357,7 +359,7 @@ class Clearing {
     const std::vector<Piece>& mine = pieces_[robot];
     const std::vector<Piece>& theirs = pieces_[other];
     const double margin = this->margin(robot, other) - kTouch;
-    // One that stops where it touches goes on touching: what follows may come nearer.
+    // A robot that stops where it touches goes on touching. Later motion may come nearer.
     const auto ends_one = [&](const Meeting& meeting) {
       return (meeting.first_moves && shortens(robot, when_it_can_stop(robot, meeting.t))) ||
              (meeting.second_moves && shortens(other, when_it_can_stop(other, meeting.t)));
@@ -378,7 +380,8 @@ class Clearing {
   }
 
   /// Where the disks of two commitments begin to overlap, or to come nearer if they overlap. A robot without
-  /// a goal certainly stays at the end of its own, and nobody can leave before one that touches it already.
+  /// a goal certainly stays at the end of its commitment. No robot can leave before another one that touches
+  /// it already.
   std::optional<Meeting> first_contact(std::size_t robot, std::size_t other) {
     const std::vector<Piece>& mine = pieces_[robot];
     const std::vector<Piece>& theirs = pieces_[other];
@@ -412,8 +415,8 @@ class Clearing {
     double until() const { return committed.empty() ? 0.0 : committed.back().t_end; }
   };
 
-  /// Ends a commitment at a time, at most kSameEnd later; as much later as an action takes of which nearly
-  /// nothing would be left, since that is not cut.
+  /// Ends a commitment at a time, or up to kSameEnd later: an action is not cut if nearly nothing of it would
+  /// be left.
   Ended ended(const ActionSequence& committed, double t) const {
     work_.met_after(kWorkOfAnAction * committed.size());
     if (t < kNothing) t = 0.0;
@@ -425,8 +428,8 @@ class Clearing {
     return cut;
   }
 
-  /// Whether a commitment that is to end then is shorter. Not by the time alone: the action under way may
-  /// have less left than is cut, and then the commitment would stay as it is, however often it is ended.
+  /// Whether a commitment that is to end at `t` becomes shorter. The time alone does not tell: if less of the
+  /// action under way is left than can be cut, the commitment would stay as it is, however often it is ended.
   bool shortens(std::size_t index, double t) const {
     const double less = robots_[index].committed_until() - kSameEnd;
     return (t < kNothing ? 0.0 : t) < less && ended(robots_[index].committed, t).until() < less;

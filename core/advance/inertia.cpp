@@ -1,7 +1,7 @@
 #include "core/advance/inertia.h"
 
-// ActionSequence of robots that need time to start and to stop: their parts, where they stand when they
-// brake, and how they go on from there.
+// Robots that need time to start and to stop: the parts of their actions, where they stand when they brake,
+// and how they go on from there.
 
 #include <algorithm>
 #include <cmath>
@@ -63,11 +63,11 @@ void brake(ActionSequence& driven, const ActionSequence& actions, std::size_t in
   }
 }
 
-/// When a robot that drives these translations, which follow each other at speed, begins to brake so that it
-/// stands at `t`; at their begin if that is too late.
+/// When a robot that drives these translations, which follow each other at speed, begins to brake to stand at
+/// `t`. If that is too late, the begin of the translations.
 double brakes_from(const ActionSequence& chain, double t) {
-  // A robot that brakes at speed v stands v times `fall` later. The time at which it stands grows with the
-  // time at which it brakes as long as it speeds up or cruises; while it slows down, it brakes already.
+  // A robot that brakes at speed v stands v times `fall` later. While it speeds up or cruises, it stands
+  // later the later it brakes. While it slows down, it brakes already.
   for (const Action& action : chain) {
     const SpeedProfile& profile = *action.profile;
     const double braking = profile.cruise * profile.inertia.fall;  // seconds, from the cruise speed
@@ -82,8 +82,8 @@ double brakes_from(const ActionSequence& chain, double t) {
   return chain.back().t_end;
 }
 
-/// The time at which actions are cut: the begin or the end of the action under way, if there is less of it on
-/// that side than an action has. One with a profile is not cut: the robot brakes.
+/// The time at which actions are cut. It is the begin or the end of the action under way if the part on that
+/// side is too small for an action. An action with a profile is not cut: the robot brakes.
 double cut_time(const ActionSequence& actions, double t) {
   for (const Action& action : actions) {
     if (action.profile || t <= action.t_start || t >= action.t_end) continue;
@@ -186,7 +186,7 @@ ActionSequence braked(const ActionSequence& actions, double t) {
     return driven;
   }
   ActionSequence before = driven;
-  // One that is hardly under way brakes later, so that it drives for more than nothing.
+  // A robot that has hardly set out brakes later, so that it drives for more than nothing.
   constexpr double kLater = 1e-6;  // seconds
   for (double later = 0.0; t + later < under_way.t_end; later = std::max(kLater, 2.0 * later)) {
     driven = before;

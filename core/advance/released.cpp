@@ -147,7 +147,7 @@ ReleasedRest released_rest(const Robot& robot, const Execution& execution, const
   pack(until.actions, place.action + 1, waits, moment.at);  // late, so that they follow each other
   const TimedProgress progress = reported_progress(until.actions, *until.reported);
   Remainder rest = remainder_of_reported(robot, until, progress, moment.at);
-  // The wait under way takes what is left of it already; one that is cut is only released so far.
+  // The wait under way already takes only what is left of it. If it is cut, it is only released so far.
   const std::size_t begins = until.actions[place.action].type == Action::Type::wait ? 1 : 0;
   const bool ends_in_wait = is_cut_wait(execution.actions, released);
   if (rest.actions.size() > begins) {

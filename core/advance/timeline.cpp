@@ -84,8 +84,8 @@ double scaled(double duration, double planned, double amount, double speed) {
   return std::max(planned > 0.0 ? amount * duration / planned : 0.0, amount / speed);
 }
 
-/// After a translation along another line than planned, the next rotation begins with that heading; if none
-/// follows, one turns the robot to its planned heading.
+/// After a translation along another line than planned, the next rotation begins with the heading of this
+/// line. If no rotation follows, a new one turns the robot to its planned heading.
 void turn_back(ActionSequence& driven, ActionSequence& following, double planned_heading,
                const Robot& robot) {
   const double angular_speed = robot.angular_speed;
@@ -149,8 +149,9 @@ std::optional<Action> continued(const Robot& robot, double linear_speed, Action 
   return left > kDone ? std::optional(action) : std::nullopt;
 }
 
-/// Drives the first action, and those that follow it at speed, from this speed on. If it leads along another
-/// line than planned, the robot stands at its end, where it turns, and those that follow begin from rest.
+/// Drives the first action, and the actions that follow it at speed, from this speed on. If it leads along
+/// another line than planned, the robot stands at its end, where it turns. The next actions then begin from
+/// rest.
 void go_on_at(double speed, ActionSequence& driven, ActionSequence& following) {
   ActionSequence chain = driven;
   chain.insert(chain.end(), following.begin(), following.end());
@@ -381,7 +382,7 @@ void hold(Remainder& rest, double from, double until) {
   const std::size_t next = is_wait(served, false) ? served + 1 : served;
   const double service_end = served == first ? from : actions[served - 1].t_end;
   const double stand_end = next == first ? from : actions[next - 1].t_end;
-  // What is left of a wait after a service gives way to the hold: it may be that of the hold before.
+  // The rest of a wait after a service gives way to the hold. It may be left from an earlier hold.
   const double end = std::max({until, service_end, served == first ? stand_end : from});
   delay(actions, next, end - stand_end);
   const auto at = [&](std::size_t index) { return actions.begin() + static_cast<std::ptrdiff_t>(index); };

@@ -44,13 +44,13 @@ BucketGrid grid_of(const std::vector<std::vector<PlannedStretch>>& by_robot, dou
   return {width, height, size};
 }
 
-/// The stretches of a robot that are near those of one robot that was added before.
+/// A robot with stretches that are near stretches of another robot, which was added before.
 struct NearRobot {
   std::size_t other = 0;
   std::vector<NearPair> pairs;
 };
 
-/// Finds the stretches of robots that are near those of others, by buckets of the plane.
+/// Finds the stretches of robots that are near stretches of other robots, by buckets of the plane.
 class NearStretches {
  public:
   /// Indexes the stretches of robots, which are given by robot. The arguments must outlive this object.
@@ -211,9 +211,9 @@ class Implications {
   std::vector<PairRange> pairs_;
 };
 
-/// Returns the dependencies that no two others imply. A waits for C if A waits for B, which must first pass a
-/// gate of its own to C: the progress of B that A waits for is strictly beyond that gate. `all` contains the
-/// dependencies of each pair of robots in ascending order of both progresses. Returns none if the stop
+/// Returns the dependencies that no two others imply. A waits for C if A waits for B, which must first pass
+/// its own gate to C. The progress of B that A waits for must be strictly beyond this gate. `all` contains
+/// the dependencies of each pair of robots in ascending order of both progresses. Returns none if the stop
 /// condition is met.
 std::optional<std::vector<WholeDependency>> without_implied(std::vector<WholeDependency> all,
                                                             const StopCondition& stop) {
@@ -262,8 +262,8 @@ class DependencyMaker {
     return true;
   }
 
-  /// Adds the dependencies between a robot and those that are near it somewhere. Returns false if the stop
-  /// condition is met, or if too many are found.
+  /// Adds the dependencies between a robot and the robots that are near it somewhere. Returns false if the
+  /// stop condition is met, or if too many are found.
   bool compare(std::size_t robot, const std::vector<NearRobot>& near) {
     for (const auto& [other, pairs] : near) {
       const auto pair =

@@ -333,10 +333,10 @@ constexpr double kJustLess = 1.0 - 1e-9;
 constexpr double kSurely = 1e-3;
 constexpr std::size_t kPairsBetweenPolls = 256;
 
-/// The regions of two robots that still matter. A region that the first robot passes first means: while that
-/// robot has not left its stretch, the second one does not enter its own. A region of a later stretch of the
-/// first robot and an earlier stretch of the second one implies this at all times; then the first region is
-/// left out.
+/// The regions of two robots that still matter. A region that the first robot passes first means: the second
+/// robot does not enter its stretch before the first robot has left its own. If another region has a later
+/// stretch of the first robot and an earlier stretch of the second one, it implies the region at all times,
+/// which is then left out.
 class PairRegions {
  public:
   PairRegions(const PacedRobot& first, const PacedRobot& second, double tolerance)
@@ -407,8 +407,8 @@ class PairRegions {
     return a.planned.t_end + kSurely < b.planned.t_start;
   }
 
-  /// Returns the distance that the two have to keep, metres; less if the plan itself does not keep it, which
-  /// is then noted in `too_near` (null: not noted).
+  /// Returns the distance that the two have to keep, metres. It is less if the plan itself does not keep it;
+  /// then this is noted in `too_near` (null: not noted).
   double distance(const PlannedStretch& a, const PlannedStretch& b, std::vector<Tightness>* too_near) const {
     const double wanted = a.radius + b.radius - tolerance_;
     const NearestInTime planned = nearest_in_time(MovingDisk(a.planned), MovingDisk(b.planned));

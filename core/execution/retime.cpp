@@ -136,8 +136,8 @@ class Forward {
     return true;
   }
 
-  /// Begins the way of a robot to its next action, to its next gate or to the next progress that another
-  /// robot waits for, whichever comes first; or makes it wait at a gate.
+  /// Begins the way of a robot to its next action, its next gate, or the next progress that another robot
+  /// waits for, whichever comes first. At a gate, makes it wait.
   void go_on(std::size_t robot, double t) {
     Traveller& one = travellers_[robot];
     one.heading_for = one.at;
@@ -158,15 +158,15 @@ class Forward {
     arrivals_.emplace(arrives, robot, ++one.arrivals);
   }
 
-  /// Lets a robot drive on: begins the drive if it has not begun, and heads for the first gate that is
-  /// closed, or for the end.
+  /// Lets a robot drive on: begins the drive if it has not begun. The robot heads for the first closed gate,
+  /// or for the end.
   void head_on(std::size_t robot, double t) {
     Traveller& one = travellers_[robot];
     if (!one.drive) begin_drive(one, t);
     Drive& drive = *one.drive;
     if (drive.stands() && t > drive.now()) drive.stand_until(t);
     double stop = drive.length();
-    // Bounded: each gate of a robot once, and the first one that is closed whenever the robot goes on.
+    // Bounded: each gate of a robot once, and the first closed gate whenever the robot goes on.
     for (; one.next_closed < one.gates.size(); ++one.next_closed) {
       const Mark& gate = one.gates[one.next_closed];
       if (gate.progress >= static_cast<double>(drive.end())) break;
@@ -197,7 +197,7 @@ class Forward {
     if (slowed_down && !one.drive->slows_down()) blame(one, opener);
   }
 
-  /// Notes that a robot has waited for another one.
+  /// Notes that a robot has waited for another robot.
   void blame(Traveller& waiter, std::size_t robot) const {
     const std::size_t because_of = travellers_[robot].because_of;
     waiter.waits_for = robot;

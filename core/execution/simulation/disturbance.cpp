@@ -12,8 +12,8 @@ namespace {
 constexpr std::size_t kDrawsBetweenPolls = 1024;
 constexpr double kSecondsPerHour = 3600.0;
 
-/// The seed of one run: a bijection of the 64 bits that leaves no two seeds or runs similar (Steele, Lea and
-/// Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014).
+/// The seed of one run: a bijection of the 64 bits after which no two seeds or runs are similar. Steele, Lea
+/// and Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014.
 std::uint64_t mixed(std::uint64_t bits) {
   bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9ULL;
   bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebULL;

@@ -136,8 +136,12 @@ class DependentExecution {
   /// Counts steps and looks at the stop condition once in many of them. Returns whether it was met.
   bool stops_after(std::size_t steps) { return stopped_ = stopped_ || stride_.met_after(steps); }
 
-  /// Executes a robot until the end of its plan, until a gate that is not known to open, until a drive
-  /// begins, or until the stop condition is met.
+  /// Executes a robot until the first of these:
+  ///
+  /// - the end of its plan,
+  /// - a gate that is not known to open,
+  /// - the begin of a drive,
+  /// - the stop condition is met.
   void advance(std::size_t index) {
     Robot& robot = robots_[index];
     const std::vector<Action>& actions = planned_.plans[index].actions;

@@ -9,9 +9,9 @@ namespace fleetplan::core {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// The difference, in seconds and as a share of the latest planned time, below which moments are the same: a
-/// robot that is late by all but this is as late as is allowed, and planned times that differ by less are
-/// equal. It is far above the rounding of sums of durations, and far below what a robot could notice.
+/// Below this difference, in seconds and as a share of the latest planned time, moments are the same. A robot
+/// that is late by all but this is as late as allowed. Planned times that differ by less are equal. It is far
+/// above the rounding of sums of durations, and far below what a robot could notice.
 constexpr double kLeastSameMoment = 1e-9;
 constexpr double kSameShare = 1e-14;
 constexpr std::size_t kActionsBetweenPolls = 256;

@@ -78,8 +78,8 @@ double ramp_between(const ExecutionKnot& from, const ExecutionKnot& to, double b
 }
 
 /// Calls `visit(planned action, path, from, to)` for each piece of time, in order, in which a robot moves
-/// straight or stands; from and to are knots of the same action. Returns false if `stop` is met first, or if
-/// `visit` returns false.
+/// straight or stands. `from` and `to` are knots of the same action. Returns false if `stop` is met first, or
+/// if `visit` returns false.
 template <typename Visit>
 bool visit_pieces(const std::vector<Action>& planned, const DisturbedActions& disturbed,
                   const ExecutedProgress& progress, const StopCondition& stop, Visit visit) {
@@ -189,9 +189,9 @@ Change change_of(double ramp) {
   return ramp > 0.0 ? Change::rises : Change::falls;
 }
 
-/// Returns the profile of a motion at constant acceleration. If that is not the robot's, because of offsets
-/// from the path or because of a clock, it is the one of the robot's acceleration with the same mean speed;
-/// none if there is none.
+/// Returns the profile of a motion at constant acceleration. The acceleration may differ from the robot's,
+/// because of offsets from the path or because of a clock. Then the profile has the robot's acceleration and
+/// the same mean speed; none if there is no such profile.
 std::optional<SpeedProfile> profile_of(const Action& motion, double ramp, const Inertia& inertia) {
   const double duration = motion.t_end - motion.t_start;
   const double mean = amount_of(motion) / duration;

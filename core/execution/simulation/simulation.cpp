@@ -129,7 +129,7 @@ class Study {
   }
 
  private:
-  /// Lists the pair if it collides in more runs than one that is listed. Call it by ascending robots.
+  /// Lists the pair if it collides in more runs than a pair that is listed. Call it by ascending robots.
   void list(const SimulationReport::Pair& pair) {
     std::vector<SimulationReport::Pair>& listed = report_.pairs;
     const auto place = std::upper_bound(
