@@ -138,10 +138,12 @@ class CornerVisibility::View {
   }
 
   /// Whether the sector at this distance (rows) from the viewpoint is too narrow for any move to a corner in
-  /// it, there or farther away. The area that the disk covers is convex, so on any grid line between its ends
-  /// it covers at least as much as on the line of one end, and there at least a chord of the disk: 2 r
-  /// sin(phi) if it moves at an angle phi to the lines. The line to the corner differs from its direction by
-  /// at most asin(2 r / d), where d is its length.
+  /// it, there or farther away.
+  ///
+  /// The area that the disk covers is convex. So on any grid line between its ends, it covers at least as
+  /// much as on the line of one end. There, it covers at least a chord of the disk: 2 r sin(phi) if it moves
+  /// at an angle phi to the lines. The line to the corner differs from its direction by at most asin(2 r /
+  /// d), where d is its length.
   bool too_narrow(const Sector& sector, double distance) const {
     const double radius = corners_.least_radius_;
     if (distance < kMinRadii * radius) return false;

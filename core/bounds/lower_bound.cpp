@@ -78,8 +78,8 @@ class Turns {
   Turns(double from, double to, double least_turn, double straight_seconds, double angular_speed)
       : from_(from), to_(to), least_(least_turn), straight_(straight_seconds), speed_(angular_speed) {}
 
-  /// The least cost. It is convex in `aside`: at the least one the slope changes its sign, either where a
-  /// rotation ends or where its gain equals the longer way.
+  /// The least cost. It is convex in `aside`. At the minimum, the slope changes its sign: where a rotation
+  /// ends, or where the gain of a rotation equals the longer way.
   double least_cost() const {
     const double sum = from_ + to_ - least_;
     double least = std::numeric_limits<double>::infinity();

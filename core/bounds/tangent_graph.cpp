@@ -12,15 +12,17 @@
 namespace fleetplan::core {
 namespace {
 
-/// A gap is tight if a straight move through a third of one cell of it stays on the grid line, up to three
-/// times this, in cells, from one end of the map to the other; so both of its ends would be off all cell
-/// centres. (The third: a robot may stop in the gap at its own start and goal. With both at the ends of one
-/// move, the goal is in sight, and no taut path is needed.)
+/// The greatest deviation from the grid line, in cells, in a tight gap. A straight move in the gap stays so
+/// close to the line through a third of one cell. So it deviates by up to three times this from one end of
+/// the map to the other, and both of its ends are off all cell centres.
+///
+/// (The third: a robot may stop in the gap at its own start and goal. If both are the ends of one move, the
+/// goal is in sight, and no taut path is needed.)
 constexpr double kMaxDeviation = 0.1;
 /// The play that contact with the walls leaves to a disk that just fits, metres.
 constexpr double kPlay = 8.0 * kSearchSlack;
-/// A tangent in a tight gap is so close to a grid line, in cells and radians; far more than the reduction of
-/// the disk's radius causes.
+/// A tangent in a tight gap is so close to a grid line, in cells and radians. This is far more than the
+/// reduction of the disk's radius causes.
 constexpr double kOnLine = 1e-3;
 
 /// The width in cells of a gap that is tight for the disk, or 0.
@@ -122,14 +124,14 @@ std::optional<Tangent> common_tangent(const TangentEnd& from, const TangentEnd& 
 namespace {
 
 constexpr double kQuarterTurn = 0.5 * std::numbers::pi;
-/// The number of pieces in which an arc is tested, few enough for the bits of a number; each is then within
-/// 0.12 % of the radius from its chord.
+/// The number of pieces in which an arc is tested, few enough for the bits of a number. Each piece is then
+/// within 0.12 % of the radius from its chord.
 constexpr int kPieces = 16;
 constexpr double kPiece = kQuarterTurn / kPieces;
 /// Rounding of places on a bend, in pieces.
 constexpr double kPieceRounding = 1e-7;
 
-/// The work of computing a tangent, and of testing a sweep against obstacles; and the number of corners in
+/// The work of computing a tangent, and of testing a sweep against obstacles. Then, the number of corners in
 /// the wrong direction that are rejected in one step of work. Measured.
 constexpr int kTangentWork = 3;
 constexpr int kRejectionsPerStep = 4;

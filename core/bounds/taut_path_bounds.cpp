@@ -190,8 +190,8 @@ bool fits_at_ends(const Instance& instance, std::size_t robot, std::size_t leg) 
   return fits_at_begin && fits_at(goals[leg]);
 }
 
-/// The motion whose cost the taut path of a robot that may reverse bounds. Such a robot need not turn as much
-/// as a taut path does: only the length and waits of the path, and the difference of the headings at its
+/// The body for the cost of a taut path that bounds a robot that may reverse. Such a robot need not turn as
+/// much as a taut path does. Only the length and waits of the path, and the difference of the headings at its
 /// ends, bound its cost.
 Body without_turns_if_reversing(Body body) {
   if (!body.may_reverse) return body;

@@ -27,7 +27,7 @@ using Reason = Unplanned::Reason;
 /// are tested when a robot is planned for the first time.
 constexpr std::int64_t kMaxMapExpansions = 50'000;
 
-/// Disks of robots, inflation and vicinity included, by place: finds those that overlap another one.
+/// Disks of robots, inflation and vicinity included, by place. Finds disks that overlap another disk.
 class DiskIndex {
  public:
   /// The robots' disks where their plans begin, or where they rest at their last goals.

@@ -89,7 +89,7 @@ class Overlaps {
     }
   }
 
-  /// The begins of overlaps, by time; one that lasts through several parts of a motion is one.
+  /// The begins of overlaps, by time. An overlap that lasts through several parts of a motion counts once.
   std::vector<std::pair<double, std::size_t>> begins() const {
     std::vector<Span> spans = all_;
     std::sort(spans.begin(), spans.end(), [](const Span& a, const Span& b) {

@@ -67,7 +67,7 @@ Enclosure::Enclosure(const Instance& instance, std::size_t robot, const std::vec
     // A robot closes no way before it has arrived where it stays.
     if (other == robot || instance.itinerary(other).t_begin > itinerary.t_begin) continue;
     const Position& center = instance.itinerary(other).pose.position;
-    // A robot that starts too near to another one may leave, but may come no nearer.
+    // A robot that starts too near to another robot may leave, but may come no nearer.
     const double reach =
         std::min(instance.views(robot).slimmest_body().pair_radius + instance.body(other).pair_radius,
                  (start - center).norm());
@@ -78,8 +78,8 @@ Enclosure::Enclosure(const Instance& instance, std::size_t robot, const std::vec
             [](const Disk& a, const Disk& b) { return a.center.x() < b.center.x(); });
 }
 
-/// Returns the distance that the robot's centre keeps from obstacles on its way, metres: its smallest radius,
-/// or less if the robot is nearer to an obstacle at its start or goal.
+/// Returns the distance that the robot's centre keeps from obstacles on its way, metres. It is the robot's
+/// smallest radius, or less if the robot is nearer to an obstacle at its start or goal.
 double Enclosure::required_clearance() const {
   double clearance = instance_.views(robot_).slimmest_body().wall_radius;
   const Itinerary& itinerary = instance_.itinerary(robot_);

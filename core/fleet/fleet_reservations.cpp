@@ -110,7 +110,7 @@ std::vector<std::size_t> FleetReservations::staying_robots() const {
   return staying;
 }
 
-/// Whether the robot's reservation is the one that it has among these.
+/// Whether the robot's reservation is the same as in the snapshot.
 bool FleetReservations::is_reserved(std::size_t robot, const Snapshot& among) const {
   const auto& now = trajectory(robot);
   const auto& other = among.trajectories[robot];

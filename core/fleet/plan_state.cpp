@@ -117,8 +117,8 @@ bool PlanState::goal_stays_free(std::size_t robot) const {
   return !safe.empty() && safe.back().end == kForever;
 }
 
-/// Robots with nothing to do may make way for others, but may also be unable to: whoever waits before one
-/// would wait for ever, although there is another way. So they stay in their places during this search.
+/// Robots with nothing to do may make way for others, or may be unable to. A robot that waits before such a
+/// robot would wait for ever, although there is another way. So they stay in their places during this search.
 SearchResult PlanState::search_whole_way(std::size_t robot, const SearchSettings& settings,
                                          const StopCondition& stop) {
   const std::vector<std::size_t> arrived = arrived_without_plan(robot);

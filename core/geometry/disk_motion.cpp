@@ -9,7 +9,7 @@
 namespace fleetplan::core {
 namespace {
 
-/// Velocities are parallel if their cross product is below this fraction of the product of their lengths: the
+/// Velocities are parallel if their cross product is below this fraction of the product of their lengths. The
 /// extreme points of the ellipse then lie outside any rectangle that can occur.
 constexpr double kParallel = 1e-12;
 
@@ -41,11 +41,11 @@ class Extent {
   double end_ = -kForever;
 };
 
-/// A part of the motion of one disk relative to another one, at constant relative acceleration.
+/// A part of the motion of one disk relative to another disk, at constant relative acceleration.
 struct Parabola {
   Position from{0.0, 0.0};
   Position to{0.0, 0.0};
-  Position bend{0.0, 0.0};  // metres: the middle deviates by a quarter of it from that of the chord
+  Position bend{0.0, 0.0};  // metres: the middle deviates from the middle of the chord by a quarter of it
   double t_begin = 0.0;
   double t_end = 0.0;
 
@@ -208,8 +208,8 @@ Passing estimated_passing(const MovingDisk& mine, const MovingDisk& other) {
   return {gap.norm(), -gap.dot(speed) / gap.norm()};
 }
 
-/// About the departure between one at which the disks collide and one at which they do not, from which on
-/// they do not: by Newton's method. None if that does not lead there.
+/// An estimate of the departure from which on the disks no longer collide, between a departure at which they
+/// collide and one at which they do not. By Newton's method. None if it does not lead there.
 std::optional<double> estimated_end_of_collisions(double inside, double outside, double reach,
                                                   MovingDisk mine, const MovingDisk& other) {
   constexpr int kMaxSteps = 8;
@@ -233,8 +233,9 @@ std::optional<double> estimated_end_of_collisions(double inside, double outside,
   return std::nullopt;
 }
 
-/// The last moment, up to kDepartureError, between one at which `collides` and one that ends the search,
-/// before which it does at all times. Rounded away from `inside`. An estimate spares most of the bisection.
+/// The end of a collision, up to kDepartureError, on the way from `inside`, where `collides` is true, to
+/// `outside`. Rounded away from `inside`. If it still collides at `outside`, returns `outside`. An estimate
+/// makes most of the bisection unnecessary.
 template <class Collides>
 double end_of_collisions(double inside, double outside, std::optional<double> estimate,
                          const Collides& collides) {

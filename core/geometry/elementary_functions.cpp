@@ -16,8 +16,8 @@ struct Reduced {
   int quadrant;  // 0 to 3
 };
 
-/// By the method of Cody and Waite (Software Manual for the Elementary Functions, 1980): a quarter turn is
-/// the sum of three numbers, the first two of 33 bits, so that their multiples are exact.
+/// By the method of Cody and Waite (Software Manual for the Elementary Functions, 1980). A quarter turn is
+/// the sum of three numbers. The first two have 33 bits, so that their multiples are exact.
 Reduced reduce(double angle) {
   constexpr double kFirst = 0x1.921fb54400000p+0;
   constexpr double kSecond = 0x1.0b4611a600000p-34;
@@ -75,8 +75,8 @@ struct Double {
   double low;
 };
 
-/// A number as a sum of one of 26 bits and a rest, whose products are exact (Dekker, A floating-point
-/// technique for extending the available precision, 1971).
+/// A number as a sum of a number of 26 bits and a rest, whose products are exact. Dekker, A floating-point
+/// technique for extending the available precision, 1971.
 Double split(double x) {
   constexpr double kFactor = 134217729.0;  // 2^27 + 1
   const double scaled = kFactor * x;

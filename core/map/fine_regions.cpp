@@ -225,8 +225,8 @@ void FineRegions::classify(int block_column, int block_row, StopStride& stop) {
   searched_.insert(searched_.end(), found.begin(), found.end());
 }
 
-/// Returns for every column (or row) of nodes the nearest column (or row) of the lattice among those within
-/// the same blocks; -1 if there is none.
+/// Returns, for every column (or row) of nodes, the nearest column (or row) of the lattice within the same
+/// block. -1 if there is none.
 std::vector<int> FineRegions::nearest_in_blocks(int nodes, int vertices) const {
   const auto along_axis = [&](int node) { return nodes_.position(node, node).x(); };
   const double rounding = 1e-6 * nodes_.pitch();

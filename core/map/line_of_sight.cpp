@@ -22,8 +22,8 @@ constexpr double kBoundsRounding = 1e-7;
 /// the next kStepInDoubt cells.
 constexpr double kShortestStep = 0.5;
 constexpr double kStepInDoubt = 2.0;
-/// The next point of a move that is looked at is farther than what is known to be clear, by this share of the
-/// distance that the last point was clear. Most often the clear disks of both points meet.
+/// The next point of a move that is examined is farther than the part known to be clear, by this share of the
+/// last point's clear distance. Usually, the clear disks of both points meet.
 constexpr double kRelaxation = 0.8;
 /// The radius, in cells, below which disks are tested in rectangles of cells, as they fit where the bounds do
 /// not tell.

@@ -121,7 +121,7 @@ class Envelope {
   std::int64_t& height(int place) { return heights_[static_cast<std::size_t>(place)]; }
   Parabola& parabola(int index) { return parabolas_[static_cast<std::size_t>(index)]; }
   std::int64_t at(std::int64_t x, int place) { return (x - place) * (x - place) + height(place); }
-  /// The last place where the parabola of the first is not above that of the second.
+  /// The last place where the parabola of the first point is not above the parabola of the second.
   std::int64_t crossing(std::int64_t first, std::int64_t second) {
     const std::int64_t difference =
         second * second - first * first + height(static_cast<int>(second)) - height(static_cast<int>(first));

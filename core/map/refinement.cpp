@@ -30,8 +30,8 @@ constexpr double kFinestCells = 0.75;
 /// The least play of a disk in a gap between cells, in cells, with which it is passed on a grid line. Lower
 /// bounds leave out gaps that are tighter; see TightGaps.
 constexpr double kLeastPlay = 0.05;
-/// Vertices whose regions touch are joined if the way between them on the lattice is longer than their bridge
-/// by more than this factor and so many spacings.
+/// Vertices whose regions touch are joined if the lattice has only a long way between them: longer than their
+/// bridge by more than this factor and so many spacings.
 constexpr double kLongWay = 1.5;
 constexpr double kWayRound = 2.0;
 /// The spacings by which a way may be longer on the lattice of the cells, whose plans are to change only
@@ -312,7 +312,7 @@ void Refinement::add_corner(const Position& wanted) {
   if (squares_with_corners_.insert(square).second) added_.push_back(*best);
 }
 
-/// Links additional vertices to those of the lattice around them, for shorter ways.
+/// Links additional vertices to the vertices of the lattice around them, for shorter ways.
 void Refinement::link_to_lattice() {
   const auto count = static_cast<int>(added_.size());
   const FinerVertices all(lattice_.vertex_count(), added_, {});
@@ -442,7 +442,7 @@ class Brushfire {
            });
   }
 
-  /// Returns the places up to this one, without those that can be skipped in sight of the next one.
+  /// Returns the places up to `last`, without places that can be skipped because the next place is in sight.
   std::vector<Position> way_to(int last) const {
     std::vector<Position> all;
     for (int k = last; k >= 0; k = reached_[static_cast<std::size_t>(k)].before) {

@@ -34,7 +34,7 @@ std::shared_ptr<const StaticMap> static_map(OccupancyGrid grid, const StopCondit
   return map->finished() ? map : nullptr;
 }
 
-/// The vertices are computed without the lock, so that no request waits for another one.
+/// The vertices are computed without the lock, so that no request waits for another.
 std::shared_ptr<const FinerVertices> StaticMap::finer_vertices(const Lattice& lattice, double radius,
                                                                const StopCondition& stop) const {
   if (!may_need_refinement(*grid_, lattice, radius, !sight_.polygons().empty()))
@@ -53,8 +53,9 @@ std::shared_ptr<const FinerVertices> StaticMap::finer_vertices(const Lattice& la
 
 namespace {
 
-/// Maps of fewer cells are made anew, in less than 0.1 ms, and a few milliseconds where the lattice needs
-/// more vertices: kept among the short-lived memory of requests, each of many thousands would hold a page.
+/// Maps of fewer cells are made anew. That takes less than 0.1 ms, and a few milliseconds if the lattice
+/// needs more vertices. If many thousands were kept among the short-lived memory of requests, each would hold
+/// a page.
 constexpr std::int64_t kFewestCells = 4096;
 
 /// Counts bytes that were allocated before on the account of this thread's job.
@@ -101,7 +102,7 @@ class MapCache::Shelf {
     return used_.begin();
   }
 
-  /// Counts one user less of a map. Of those that nobody uses, the ones used least recently leave.
+  /// Counts one user less of a map. Among maps without users, the least recently used ones leave.
   void give_back(Slot entry) {
     const MemoryScope of_no_job(nullptr);  // the maps that are destroyed were counted elsewhere
     std::list<Entry> leaving;              // destroyed without the lock

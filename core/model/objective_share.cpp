@@ -7,8 +7,8 @@ namespace {
 
 using Objective = PlanOptions::Objective;
 
-/// With the objective `tardiness`, a second of cost counts as so many seconds of delay: too few to matter
-/// but where delays are equal, and enough for gains of cost to be told from rounding.
+/// With the objective `tardiness`, a second of cost counts as so many seconds of delay. They are so few that
+/// they matter only if delays are equal, and enough to tell gains of cost from rounding.
 constexpr double kShareOfCost = 1e-4;
 
 /// `goal_of` returns the goal with a number.
@@ -19,7 +19,7 @@ double total_delay(const std::vector<Visit>& visits, const GoalOf& goal_of) {
   return sum;
 }
 
-/// The delay at the last goal of a robot that ends its service there at `cost`. One that waits for
+/// The delay at the last goal of a robot that ends its service there at `cost`. A robot that waits for
 /// `not_before` is not late.
 double delay_at_last(const Itinerary& itinerary, double cost) {
   return late_by(itinerary.last_goal(), cost - itinerary.last_goal().service).value_or(0.0);

@@ -20,8 +20,8 @@ double served_at(const Robot& robot, const OpenGoal& open, std::span<const Actio
   return is_there && (also_last || served.service_done > 0.0) ? served.arrived : kForever;
 }
 
-/// Seconds that places near a goal's pose cost at least more than this, and more for each metre: more than
-/// any way takes, and less than changing its mind costs a robot (pose_choice.cpp).
+/// The cost of places near a goal's pose is at least this, seconds, and grows with each metre. It is more
+/// than any way takes, and less than the cost of changing to another pose (pose_choice.cpp).
 constexpr double kBiasOfPlaces = 4e5;
 /// Where places are tried: circles, and places on each.
 constexpr int kCircles = 8;

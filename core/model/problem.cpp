@@ -67,8 +67,8 @@ struct Collision {
 /// The distance that two disks keep, in contact at the nearest.
 double reach_of(const Disk& a, const Disk& b) { return a.radius + b.radius - kContactTolerance; }
 
-/// Returns the first collision of a pair that begins nearer than it should be: the pair may come no nearer
-/// until it is clear, and then keeps the whole distance.
+/// Returns the first collision of a pair that begins too near. The pair may come no nearer until it is clear,
+/// and then keeps the whole distance.
 std::optional<Collision> collision_after_leaving(const std::vector<Disk>& a, const std::vector<Disk>& b) {
   const double at_first = (a.front().motion.from - b.front().motion.from).norm() - kContactTolerance;
   const double reach_at_first = reach_of(a.front(), b.front());
@@ -145,8 +145,8 @@ class CommittedFaults {
     }
   }
 
-  /// Adds a collision of a translation with a wall. `own` is the robot's radius, `radius` the one that it has
-  /// to keep, metres.
+  /// Adds a collision of a translation with a wall. `own` is the robot's radius, `radius` the radius that it
+  /// has to keep, metres.
   void add_wall(std::size_t index, const Action& action, double own, double radius) {
     const LineOfSight& sight = maps_.while_leaving(index)->sight();
     const Position way = action.to.position - action.from.position;
@@ -249,7 +249,7 @@ class CommittedFaults {
                        .t = collision.t});
   }
 
-  using Pair = std::pair<std::size_t, std::size_t>;  // a robot with a commitment, and another one
+  using Pair = std::pair<std::size_t, std::size_t>;  // a robot with a commitment, and another robot
 
   const ZoneMaps& maps_;
   const std::vector<Robot>& robots_;
@@ -261,13 +261,17 @@ class CommittedFaults {
   std::vector<ProblemFault> faults_;
 };
 
-/// Returns by robot the faults of the kinds committed_collision and committed_in_zone: bare disks that
-/// overlap by more than kContactTolerance. Two committed motions are compared while both last, to their own
-/// ends. A robot without a goal, or an invalid one, stands at its end for ever. A robot that has a goal but
-/// no commitment may leave, so it is in the way of no other. Starts that overlap by no more than the
-/// conditions allow may part: until they are clear, such a pair comes no nearer, and neither does such a
-/// robot to a wall or a blocked zone. Starts that overlap by more are faults of another kind, and are left
-/// out. The list is incomplete if the stop condition is met.
+/// Returns, by robot, the faults of the kinds committed_collision and committed_in_zone: bare disks that
+/// overlap by more than kContactTolerance.
+///
+/// - Two committed motions are compared while both last, to their own ends.
+/// - A robot without a goal, or an invalid one, stands at its end for ever.
+/// - A robot with a goal but without a commitment may leave, so it blocks no other robot.
+/// - Starts that overlap by no more than the conditions allow may part. Until they are clear, such a pair
+///   comes no nearer. The same holds for such a robot and a wall or a blocked zone.
+/// - Starts that overlap by more are faults of another kind, and are left out.
+///
+/// The list is incomplete if the stop condition is met.
 std::vector<ProblemFault> committed_faults(const ZoneMaps& maps, const std::vector<Robot>& robots,
                                            const ProblemConditions& conditions, const StopCondition& stop) {
   const bool any = std::any_of(robots.begin(), robots.end(),

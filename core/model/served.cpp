@@ -68,7 +68,7 @@ struct Service {
   double end;
 };
 
-/// Those of goals that take time, in their order. One that goes on at the end of the actions has no end.
+/// The services that take time, in their order. A service that goes on at the end of the actions has no end.
 std::vector<Service> services_of(const Robot& robot, std::span<const Action> actions) {
   std::vector<Service> services;
   const auto add = [&](std::size_t index, double arrived, double end) {
@@ -110,7 +110,8 @@ void mark_services(const Robot& robot, std::vector<Action>& actions, std::size_t
   std::vector<Action> marked;
   marked.reserve(actions.size());
   auto next = services.begin();
-  // Bounded: services follow one another, and so do actions; each looks at those of its own time.
+  // Bounded: services follow one another, and so do actions. Each action looks only at the services of its
+  // own time.
   for (std::size_t k = 0; k < actions.size(); ++k) {
     Action action = actions[k];
     const double shortest = std::min(kLeastAction, 0.5 * (action.t_end - action.t_start));

@@ -108,8 +108,8 @@ constexpr double kLinkDistance = 2.0;
 /// Whether the robot may end its way out at a place that is clear of the zones.
 using MayEnd = std::function<bool(const Position&)>;
 
-/// The shortest way of a disk from a place to one that is clear of zones, over the vertices of its lattice
-/// and straight between them (Theta*; Daniel, Nash, Koenig and Felner, JAIR 2010, without a heuristic).
+/// The shortest way of a disk from a place to a place clear of zones, over the vertices of its lattice and
+/// straight between them. Theta* without a heuristic (Daniel, Nash, Koenig and Felner, JAIR 2010).
 class WayOutSearch {
  public:
   WayOutSearch(const StaticMap& inside, const LineOfSight& outside, const DriveZones& zones, double radius,
@@ -322,7 +322,7 @@ class WaysOut {
     return search.find(from, fits, may_end);
   }
 
-  /// Whether a robot may rest there beside the last goals of others, and those that stay.
+  /// Whether a robot may rest there beside the last goals of others, and beside robots that stay.
   bool is_out_of_the_way(std::size_t index, double radius, const Position& place) const {
     const double own = radius + inflation_ + robots_[index].vicinity;
     for (std::size_t other = 0; other < robots_.size(); ++other) {

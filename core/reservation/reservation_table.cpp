@@ -19,9 +19,13 @@ constexpr std::size_t kManyFixed = 10'000;
 
 // A query asks SegmentIndex for the reservations that come and go, and FixedReservations for obstacles and
 // committed motion. Both call a function for every moving disk (Occupant) that may come too near within a
-// window of time, until it returns false: SegmentIndex in one bucket of a layer, so that a move walks the
-// buckets of each layer on its path, FixedReservations for a whole move. disk_motion.h computes when two
-// disks are nearer to each other than the distance for their pair, CollisionDistance or FixedDistance.
+// window of time, until it returns false.
+//
+// - SegmentIndex does so in one bucket of a layer. So a move walks the buckets of each layer on its path.
+// - FixedReservations does so for a whole move.
+//
+// Each pair has its own distance, CollisionDistance or FixedDistance. disk_motion.h computes when two disks
+// are nearer than that.
 
 using Occupant = SegmentIndex::Occupant;
 
@@ -159,8 +163,8 @@ class ReservationTable::FixedDistance {
     if (contacts_ != nullptr) terminal_ = contacts_->terminal(robot_, path, radius_, mine.has_left);
   }
 
-  /// Inflation is for pairs of robots that may choose: a robot that still stands where its commitment ends
-  /// need not leave because committed motion passes within the inflated distance only.
+  /// Inflation is for pairs of robots that may choose. A robot that still stands where its commitment ends
+  /// need not leave because committed motion passes within only the inflated distance.
   double operator()(const FixedReservations::Occupant& other) const {
     if (other.is_obstacle) {
       const double slack = begins_at_commitment_end_ ? kContactTolerance : kSearchSlack;

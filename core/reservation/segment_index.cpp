@@ -16,7 +16,7 @@ constexpr double kMaxBuckets = 2.5e5;
 constexpr double kMaxBucketsPerRobot = 4096.0;
 /// The sides of buckets within which a disk at rest is entered: into a few hundred buckets of its layer.
 constexpr double kMaxReach = 8.0;
-/// The side of a bucket to that of one in the layer before: 2 to the power of this.
+/// The ratio of a bucket's side to the side of buckets in the layer before, as a power of 2.
 constexpr int kLayerExponent = 2;
 
 std::vector<double> pair_radii(const std::vector<LargestDisk>& disks) {

@@ -88,7 +88,7 @@ class PathEnd {
   double rest_f_ = kForever;
 };
 
-/// Discards arrivals: those that others dominate and, in the quick pass, those that are hardly better.
+/// Discards arrivals that others dominate. In the quick pass, also discards arrivals that are hardly better.
 class DominatedArrivals {
  public:
   DominatedArrivals(const DominanceTable& table, const Goals& goals, const Body& body)
@@ -230,8 +230,8 @@ Search::Outcome Search::run(Pass pass) {
   return Outcome::found;
 }
 
-/// Prepares a pass. Returns false if the stop condition is met, or if the last goal has no safe interval
-/// without end, or another one has none that is long enough; with a horizon, the path may end elsewhere.
+/// Prepares a pass. Returns false if the stop condition is met, or if a goal is never free long enough. The
+/// last goal needs a safe interval without end, unless there is a horizon: then the path may end elsewhere.
 bool Search::begin(Pass pass) {
   const bool uses_slack = pass == Pass::quick && limits_.dominance_slack > 0.0;
   dominated_.begin(pass, uses_slack);
@@ -390,8 +390,8 @@ LabelId Search::add_label(const Label& label) {
   return id;
 }
 
-/// h estimates the seconds from an arrival to the end of the last service, or to rest in the pose of the last
-/// goal if that has none; without other robots.
+/// h estimates the seconds from an arrival to the end of the last service, without other robots. If the last
+/// goal has no service, to rest in its pose.
 inline Evaluation Search::evaluate(PlaceId id, int interval, double arrival, double heading) const {
   const Place& place = state_.places[id];
   const double h = place.any_heading ? place.estimate.seconds : place.estimate.with_rotation(heading, body_);

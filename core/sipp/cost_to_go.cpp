@@ -68,8 +68,8 @@ double TimesFromStart::to_goal(int vertex) const {
   return vertices_.body().cruise_time((vertices_.position(vertex) - goal_position_).norm());
 }
 
-/// No way to the goal is faster than the one found, so a vertex off it is at least so far from the start that
-/// a straight line to the goal makes it as slow.
+/// Let T be the time of the way to the goal that was found; no way is faster. So the time to any vertex is at
+/// least T minus the time of a straight line from the vertex to the goal.
 double TimesFromStart::at_least(int vertex) {
   if (!reached_goal_) return 0.0;
   return std::clamp<double>(time(goal_) - to_goal(vertex), 0.0, time(vertex));
@@ -215,7 +215,8 @@ class CostToGo::BackwardSearch {
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open_;
   std::int64_t expansions_ = 0;
   bool has_begun_ = false;
-  /// The vertices from here on are those of a start that is replaced. They are on no way of the others.
+  /// From here on, the vertices belong to a start that is replaced. They are not on the ways of other
+  /// vertices.
   const int first_start_vertex_;
   bool start_known_ = false;  // their estimates
 };
@@ -312,7 +313,7 @@ CostToGo::Estimate CostToGo::BackwardSearch::via(int vertex, int next) {
   return estimate;
 }
 
-/// Adds the cost from `next` on to that of the translation there, which is so long, forwards and backwards.
+/// Adds the cost from `next` on to the cost of the translation there, of this length, forwards and backwards.
 void CostToGo::BackwardSearch::add_onward(Estimate& estimate, int next, double length) {
   const double back = opposite_heading(estimate.heading);
   const double translation = estimate.seconds;

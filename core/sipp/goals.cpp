@@ -267,7 +267,7 @@ void PathToTrajectory::stop_at_rest(const Label& first, const Label& last) {
   trajectory_.stops_at = t_end;
   trajectory_.cost = end_after_rest(last, t_end);
   trajectory_.estimated_visits = visits_after_rest(last, t_end);
-  // A robot that waits for the `not_before` of a goal gains time, and one that has served its goals need not.
+  // A robot that waits for the `not_before` of a goal gains time. A robot that has served its goals need not.
   const double left_at_begin = end_after_rest(first, t_begin) - t_begin;
   trajectory_.gains_nothing =
       t_end > t_begin && left_at_begin > kNoGain && trajectory_.cost - t_end >= left_at_begin - kNoGain;

@@ -94,15 +94,15 @@ void Successors::append_intervals(Place& place) {
   state_.dominance.set_interval_count(state_.intervals.size());
 }
 
-/// The arrivals at a goal from which the robot may be served there with the radius that it has, and be there
-/// with the next one when the service ends. A rotation before the service only ends it later.
+/// The arrivals at a goal from which the robot may be served there with its radius, and may be there with its
+/// next radius when the service ends. A rotation before the service only delays its end.
 void Successors::append_windows(const Place& place) {
   const Stage& at = goals_.stage(place.stage);
   const Stage& next = goals_.stage(place.stage + 1);
   const double t_from = earliest_arrival(place.position);
   const std::vector<SafeInterval> after = table_.safe_intervals(next.footprint, place.position, t_from);
   auto begin = after.begin();
-  // Bounded: the intervals, which are ascending: each is left behind once, or overlaps another one.
+  // Bounded: the intervals are ascending. Each is left behind once, or overlaps another interval.
   for (const SafeInterval& before : table_.safe_intervals(at.footprint, place.position, t_from)) {
     while (begin != after.end() && begin->end < before.begin) ++begin;
     for (auto later = begin; later != after.end() && later->begin <= before.end; ++later) {
@@ -139,7 +139,7 @@ Successors::Services Successors::services_from(LabelId from) {
           safe_until == kForever || (t_end == label.arrival && stop.heading == label.heading)};
 }
 
-/// With another load in the next stage, other intervals may be safe there: those that contain the end of the
+/// With another load in the next stage, other intervals may be safe there. They must contain the end of the
 /// service.
 std::vector<OpenEntry> Successors::services_with_other_load(LabelId from, const ServiceStop& stop) {
   constexpr double kRoundingOfTimes = 1e-9;  // seconds; more than the rounding of times
@@ -191,8 +191,8 @@ Successors::EdgeRange Successors::add_edges(LabelId from) {
   return {first, static_cast<int>(state_.edges.size())};
 }
 
-/// If the goal of the stage is in sight, the straight move there; to the last goal only into the interval in
-/// which the robot may stay.
+/// Adds the straight move to the goal of the stage if it is in sight. To the last goal, only into the
+/// interval in which the robot may stay.
 void Successors::add_edge_to_goal(LabelId from) {
   const PlaceId here = state_.labels[from].place;
   const int stage = state_.places[here].stage;

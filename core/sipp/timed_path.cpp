@@ -149,7 +149,8 @@ double TimedPath::least_left(const Stop& before, const Stop& stop, const Stop* n
   return left;
 }
 
-/// Sets what is least left of the first `count` stops; that of the next one, if any, is set.
+/// Sets the least rest of the path after each of the first `count` stops. The next stop's value, if there is
+/// one, is already set.
 void TimedPath::set_least_left(std::size_t count) {
   // Bounded: the stops of one path.
   for (std::size_t k = count; k-- > 0;) {
@@ -238,7 +239,7 @@ std::optional<std::size_t> TimedPath::try_replace(std::size_t first, std::size_t
     bend.goals_end = from.goals_end;
     set_move(from, bend);
   }
-  Stop& end = tried_[inserted];  // the move to this stop is the last one that is new
+  Stop& end = tried_[inserted];  // the move to this stop is the last new move
   end = stops_[next];
   const Stop& before_end = by ? tried_.front() : from;
   set_move(before_end, end);

@@ -14,8 +14,8 @@ namespace {
 
 /// Own vertices are linked to vertices within this distance, in lattice spacings.
 constexpr double kLinkDistance = 2.0;
-/// A start that is too near to others is linked to vertices within this distance if the robot is clear of
-/// them only there, in lattice spacings.
+/// In lattice spacings: the longest link of a start that is too near to others, if the robot is clear of them
+/// only there.
 constexpr double kLongestLink = 12.0;  // > kLinkDistance
 /// Comparisons of own vertices and links between two checks of the stop condition.
 constexpr std::size_t kWorkBetweenPolls = 16 * 1024;
@@ -113,8 +113,8 @@ int OwnVertices::add_goal(std::size_t robot, const Position& goal, double overla
   return never_left_;
 }
 
-/// How far an own vertex is linked to others, metres, where so much of the disk is missing: two metres for
-/// one, as the way need not be the straight one to where the disk is clear.
+/// How far an own vertex is linked to others, metres, if so much of the disk is missing: two metres for each
+/// metre, because the way to where the disk is clear need not be straight.
 double OwnVertices::reach_with(double deficit) const {
   return std::min(kLinkDistance * lattice_.spacing() + 2.0 * deficit, kLongestLink * lattice_.spacing());
 }

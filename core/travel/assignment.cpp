@@ -10,7 +10,7 @@ namespace fleetplan::core {
 namespace {
 
 /// The cost of an assignment, or a difference of costs: the importance of rows without a column, and the sum
-/// of the others, which matters only if the former is the same.
+/// of the other costs. The sum matters only if the importance is the same.
 struct Cost {
   std::int64_t without = 0;
   double sum = 0.0;
@@ -22,9 +22,10 @@ struct Cost {
 
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
-/// Adds row after row. Each gets a column by the cheapest change of the assignment so far: an alternating
-/// path from the row to a free column, by Dijkstra's algorithm on costs reduced by the potentials of rows and
-/// columns, which are >= 0. Besides the real columns, each row has a column of its own that stands for none.
+/// Adds row after row. Each row gets a column by the cheapest change of the assignment so far: an alternating
+/// path from the row to a free column. Dijkstra's algorithm finds it, on costs reduced by the potentials of
+/// rows and columns, which are >= 0. In addition to the real columns, each row has its own column that stands
+/// for none.
 class Assignment {
  public:
   Assignment(const std::vector<std::vector<double>>& costs, const std::vector<std::int64_t>& importance)
@@ -42,7 +43,7 @@ class Assignment {
     before_.assign(columns, kNone);
     is_done_.assign(columns, false);
     Cost reached;
-    std::size_t column = kNone;  // the one that was reached last
+    std::size_t column = kNone;  // the column that was reached last
     do {
       if (stop.met()) return false;
       const std::size_t here = column == kNone ? row : row_of_[column];

@@ -16,8 +16,8 @@ constexpr std::size_t kMaxWidened = 100;
 /// How many of the goals that follow an open one count when a pose is chosen for it.
 constexpr std::size_t kGoalsAhead = 8;
 
-/// Goals from `first` to the next open one that is not settled, or to the end of those with a pose; the first
-/// kGoalsAhead of them.
+/// Goals from `first` to the next open goal that is not settled, or to the end of the goals with a pose. At
+/// most the first kGoalsAhead of them.
 std::vector<Goal> goals_until_open(const Robot& robot, const std::vector<OpenGoal>& open, std::size_t first) {
   std::vector<Goal> goals;
   const std::size_t end = std::min(robot.own_goal_count(), first + kGoalsAhead);
@@ -61,7 +61,7 @@ std::vector<PoseTimes> straight_times(const Robot& robot, const std::vector<Open
   return times;
 }
 
-/// The robot with the goals before this one only. One that has goals does not stand for ever after them.
+/// The robot with only the goals before this one. A robot that has goals does not stand for ever after them.
 Robot until_goal(const Robot& robot, std::size_t goal) {
   Robot until = robot;
   until.previous.reset();

@@ -22,8 +22,8 @@ constexpr int kMaxConflicts = 64;
 /// How many positions are tried after that, one robot after the other.
 constexpr int kMaxTries = 20'000;
 
-/// The pose at which the previous plan of a robot ends, or its commitment, by its index; none if there are
-/// none, or if they end elsewhere.
+/// The index of the pose at which a robot's previous plan or its commitment ends. None if there is neither,
+/// or if they end elsewhere.
 std::optional<std::size_t> pose_so_far(const Robot& robot, const OpenGoal& open) {
   if (!robot.previous && robot.committed.empty()) return std::nullopt;
   const bool goes_on = robot.previous && !robot.previous->empty();
@@ -68,8 +68,8 @@ class Chooser {
     return places;
   }
 
-  /// One robot after the other, the one that ends first by the best of its poses first. Each waits where one
-  /// before it is served.
+  /// One robot after the other. The robot that ends first at the best of its poses comes first. Each robot
+  /// waits while a robot before it is served.
   bool choose_in_turn(const std::vector<OpenPlace>& places) {
     const auto times = times_of_(places);
     if (!times) return false;
@@ -221,7 +221,7 @@ class Chooser {
       for (std::size_t other = 0; other < row && columns_of_[row]; ++other) {
         if (!columns_of_[other]) continue;
         if (!overlap_at(row, *columns_of_[row], other, *columns_of_[other])) continue;
-        // The one that loses less, by its next best position.
+        // The row that loses less with its next best position.
         const std::size_t loser = loss(row) < loss(other) ? row : other;
         forbidden_.emplace_back(loser, *columns_of_[loser],
                                 std::exchange(costs_[loser][*columns_of_[loser]], kForever));
@@ -288,7 +288,7 @@ class Chooser {
   OpenGoals& open_;
   const TimesOf& times_of_;
   const StopCondition& stop_;
-  std::map<Key, double> free_from_;  // by position, seconds: after those that are served there before
+  std::map<Key, double> free_from_;  // by position, seconds: after the robots that are served there before
   // The members below are about robots that stay.
   std::vector<OpenPlace> last_;
   std::vector<Other> others_;

@@ -80,7 +80,7 @@ class Travels {
     if (estimate.least() == kForever || stop.met()) return std::nullopt;
     const double seconds =
         space.any_heading_at_start() ? estimate.least() : estimate.with_rotation(heading, vertices.body());
-    // In zones that limit speeds, the estimate is not that of a whole way.
+    // In zones that limit speeds, the estimate is not the time of a whole way.
     const bool is_whole = !vertices.times().limit_speeds();
     const SearchResult found = search_.run(space, kExact, stop);
     if (found.trajectory && (!is_whole || found.trajectory->cost <= seconds)) {

@@ -60,8 +60,8 @@ double least_of_commitments(const ExecutedFleet& fleet, const Overlap& overlap, 
                         committed_legs(b, fleet.handovers[overlap.second].committed_until), {0.0, until});
 }
 
-/// Returns the time, in seconds, from which two robots have to keep their whole distance, if they begin with
-/// this overlap and may leave it; none otherwise.
+/// Returns the time, seconds, from which two robots that begin with this overlap have to keep their whole
+/// distance. None if they may not leave the overlap.
 std::optional<double> leaves_overlap(const ExecutedFleet& fleet, const Overlap& overlap,
                                      const CheckRules& rules) {
   const Handover& a = fleet.handovers[overlap.first];
@@ -319,7 +319,7 @@ class FleetCheck {
     RobotPlan plan;
   };
 
-  /// Whether a plan is to visit this goal of the robot: by its list of visits or, without one, as it ends at
+  /// Whether a plan is to visit this goal of the robot: by its list of visits. Without a list, if it ends at
   /// the last goal.
   static bool serves(const Robot& robot, const RobotPlan& plan, std::size_t goal,
                      const Tolerance& tolerance) {
@@ -404,7 +404,7 @@ class FleetCheck {
                   const Tolerance& tolerance) {
     const auto changed = check_commitments(robot, plan, tolerance, rules_.exact_commitments);
     if (changed) violations_.add(*changed);
-    // Committed actions that repeat those of the request exactly are not judged.
+    // Committed actions that exactly repeat the request's actions are not judged.
     const std::size_t given = rules_.exact_commitments && !changed ? robot.committed.size() : 0;
     violations_.add(check_motion(robot, plan, given, loads, tolerance, stop_));
     const GoalsLeft goals_left =

@@ -53,7 +53,7 @@ NearestPoint nearest_to_rectangle(const Position& from, const Position& to, cons
   const Stretch inside = stretch_inside(from, to, rectangle);
   if (!inside.empty()) return {0.0, inside.first};
 
-  // The distance of two disjoint convex shapes is that of a corner of one of them from the other.
+  // If two convex shapes are disjoint, a corner of one of them has their distance from the other shape.
   const NearestPoint at_end{distance_to_rectangle(to, rectangle), 1.0};
   NearestPoint nearest = nearer_or_earlier(at_start, at_end);
   const auto [left, bottom] = std::pair{rectangle.low.x(), rectangle.low.y()};
@@ -194,8 +194,8 @@ int tiles_for(int cells) { return (cells + kTile - 1) / kTile; }
 
 }  // namespace
 
-/// Branch and bound for the blocked cell nearest to a segment: blocks of tiles are halved until they are all
-/// free, all blocked, or one tile, and dropped when they are too far away.
+/// Branch and bound for the blocked cell nearest to a segment. Blocks of tiles are halved until they are all
+/// free, all blocked, or one tile. They are dropped if they are too far away.
 class ObstacleField::NearestCellSearch {
  public:
   /// Finds only cells that are nearer than `limit`, or as near and earlier on the segment.

@@ -132,7 +132,7 @@ constexpr std::size_t kStepsBetweenPolls = 256;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Sweep and prune in every time window: sweeps the boxes of all robots from left to right and compares the
+/// Sweep and prune in every time window: sweeps the boxes of all robots from left to right. Compares the
 /// pairs whose boxes are nearer than the least gap so far, or near enough to overlap.
 class ClearanceSweep {
  public:
@@ -243,7 +243,7 @@ class ClearanceSweep {
 
   const std::vector<std::vector<Leg>>& legs_;
   const std::vector<double>& bodies_;
-  const std::vector<double>& radii_;       // radii that are kept apart, at least those of the bodies
+  const std::vector<double>& radii_;       // the radii that are kept apart, at least the bodies' radii
   const std::vector<double>& tolerances_;  // by robot
   MovingBoxes boxes_;
   OverlapList overlaps_;

@@ -155,7 +155,7 @@ bool any_contains(const std::vector<TimeSpan>& spans, double t) {
 namespace {
 
 constexpr std::size_t kPiecesBetweenPolls = 256;
-/// Windows in which obstacles have about the same number of legs, in addition to those of the robots.
+/// Windows in which obstacles have about the same number of legs, in addition to the windows of the robots.
 constexpr std::size_t kObstacleWindows = 64;
 /// The most ends of legs from which these windows are found.
 constexpr std::size_t kMaxSamples = 4096;

@@ -151,8 +151,8 @@ class MotionCheck {
   }
 
   /// Reports an action that takes less time than necessary by more than the tolerance, and leads farther than
-  /// possible by more than the tolerance: for a slow robot, rounded poses may amount to much time. Infinite
-  /// speeds are reported as durations.
+  /// possible by more than the tolerance. Both are required, because for a slow robot, rounded poses may
+  /// amount to much time. Infinite speeds are reported as durations.
   void check_duration(std::size_t k, double amount, double top_speed, double tolerance, const char* unit) {
     const Action& action = plan_.actions[k];
     const double duration = std::max(0.0, action.t_end - action.t_start);

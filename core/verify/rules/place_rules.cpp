@@ -352,8 +352,8 @@ ViolationList ZonesOfRobot::check_driving(const std::vector<Action>& actions, co
   return violations;
 }
 
-/// Reports a translation that breaks the rule of a zone. The time that is missing is measured over the part
-/// inside the zone, as that of whole actions is.
+/// Reports a translation that breaks the rule of a zone. The missing time is measured over the part inside
+/// the zone, in the same way as for whole actions.
 std::optional<Violation> ZonesOfRobot::check_translation(const ZoneBox& in, const Action& action,
                                                          std::size_t number, const CarriedLoad& load,
                                                          const Tolerance& tolerance,

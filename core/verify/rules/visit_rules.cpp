@@ -107,7 +107,7 @@ class VisitCheck {
     return std::move(violations_);
   }
 
-  /// The goals before the last one that are served.
+  /// Counts the goals before the last one that are served.
   std::size_t count_served() {
     serve();
     return served_.size();
