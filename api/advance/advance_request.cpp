@@ -335,8 +335,8 @@ void write_actions(JsonWriter& json, std::string_view key, const std::vector<cor
   json.end_array();
 }
 
-/// What is repeated of the goals of a robot: the last ones of those that it had, or those that it passes, and
-/// then other ones.
+/// What is repeated of the goals of a robot: the last of its goals, or the goals that it passes, followed by
+/// new goals.
 class GoalsToRepeat {
  public:
   GoalsToRepeat(const AdvanceRequest& request, std::size_t index, const core::Robot& left)
@@ -354,8 +354,8 @@ class GoalsToRepeat {
   bool are_other() const { return are_other_; }
 
   /// The goal, if all of its poses are still possible; otherwise null. A robot that rests in the pose that
-  /// its plan has chosen stays with that, unless it is done and may come back to another one; what it passes
-  /// is past.
+  /// its plan has chosen stays with it, unless it is done and may come back to another pose. Passed goals do
+  /// not count.
   const core::OpenGoal* open(std::size_t goal) const {
     const core::OpenGoal* open = open_goal(goal);
     if (open == nullptr || goal > 0 || !open->is_settled) return open;
@@ -388,7 +388,7 @@ class GoalsToRepeat {
 
   const core::Robot& left_;
   const RepeatedGoals& repeated_;
-  core::PassedGoals passed_;  // those that are left begin with the first one
+  core::PassedGoals passed_;  // the goals that are left begin with the first of them
   bool are_other_ = false;
 };
 
@@ -467,7 +467,7 @@ void write_obstacles(JsonWriter& json, const JsonValue& given, const AdvanceRequ
   auto read = request.now.obstacles.begin();
   // Bounded: the text of the request, which is copied.
   for (const JsonValue obstacle : given.children()) {
-    // One that had left at the start is not among those that were read.
+    // An obstacle that had left at the start has not been read.
     if (read == request.now.obstacles.end() || obstacle.find("id")->string() != read->id) continue;
     const auto left = core::advanced(*read++, request.now.moment.at);
     if (!left) continue;
@@ -528,8 +528,8 @@ void write_unavoidable(JsonWriter& json, const AdvanceRequest& request,
   json.member("unavoidable_total", circumstances.unavoidable.total);
 }
 
-/// Where each robot is in the actions that it was given, and in those of the new request: at their beginning,
-/// as time 0 of a request is its moment.
+/// Where each robot is in the actions that it was given. In the new request, it is at the beginning of its
+/// actions, because time 0 of a request is its moment.
 void write_progress(JsonWriter& json, const AdvanceRequest& request, core::Work& work) {
   constexpr std::size_t kWorkOfALook = 64;  // at an action, to find the one under way
   json.key("progress").begin_array();

@@ -43,8 +43,8 @@ Reply validate_endpoint(std::string_view body, const RequestContext& context) {
 
 namespace {
 
-/// Returns a JSON Pointer to the action of a robot at time `t`, to its plan if there is none, or to the robot
-/// if it has no plan.
+/// Returns a JSON Pointer to the action of a robot at time `t`. If there is no action, to its plan. If it has
+/// no plan, to the robot.
 std::string pointer_to(std::size_t robot, double t, const std::vector<core::RobotPlan>& plans) {
   const auto plan = std::find_if(plans.begin(), plans.end(),
                                  [robot](const core::RobotPlan& one) { return one.robot == robot; });
@@ -323,7 +323,7 @@ core::SimulatedFleet fleet_of(const SimulateRequest& request) {
 }
 
 /// Returns the text of the requested trace. None, with a warning, if it has too many actions for an answer,
-/// or is not made in half of the time: the rest is for the runs.
+/// or takes more than half of the time, because the rest is for the runs.
 std::optional<std::string> requested_trace(const core::SimulatedFleet& fleet, SimulateRequest& request,
                                            const Limits& limits, const core::StopCondition& stop) {
   // A small request may have a million stops and bends; its answer is in proportion to its plans.

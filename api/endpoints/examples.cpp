@@ -39,7 +39,7 @@ const Example* find_example(std::string_view name) {
   return found != all.end() ? &*found : nullptr;
 }
 
-/// Returns all examples: first those of the index, in its order, then the rest.
+/// Returns all examples: first the examples of the index, in its order, then the rest.
 std::vector<Entry> entries(core::Work& work) {
   std::vector<Entry> listed;
   const JsonDocument index = read_embedded(examples_index(), work);

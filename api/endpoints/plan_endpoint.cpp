@@ -104,9 +104,10 @@ std::vector<std::string> stuck_warning(const core::Plan& plan, const std::vector
           ". blocked_by of their plans has the robots that are in their way."};
 }
 
-/// Writes the answer with a plan that has been checked. One that the checker rejects is a bug and becomes a
-/// 500. If the check was not finished, there is no answer: a plan that is not checked is never returned.
-/// `stages`: those before the plan was made. `on_answer`, which may be empty, gets the plan of the answer.
+/// Writes the answer with a plan that has been checked. A plan that the checker rejects is a bug and becomes
+/// a 500. If the check was not finished, there is no answer: a plan that is not checked is never returned.
+/// `stages`: the stages before the plan was made. `on_answer`, which may be empty, receives the plan of the
+/// answer.
 Reply plan_answer(const core::CheckedPlan& made, const PlanRequest& request, const std::string& request_id,
                   StageTimes stages, const AnsweredPlan& on_answer) {
   stages.planned = made.times.planned;

@@ -19,7 +19,7 @@ std::string range_text(const Range& range) {
   return "from " + number_text(range.least) + " to " + number_text(range.max) + ' ' + unit;
 }
 
-/// Returns the number of characters of UTF-8: of all bytes but those that continue a character.
+/// Returns the number of characters of UTF-8. Bytes that continue a character do not count.
 std::size_t characters_of(std::string_view text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char byte) {
     return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;

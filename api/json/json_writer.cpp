@@ -10,8 +10,8 @@ namespace fleetplan::api {
 
 namespace {
 
-/// Returns the number of bytes, at the begin of a text that is not valid UTF-8, up to the first byte that
-/// cannot continue the character; at least one.
+/// Returns the number of invalid bytes at the begin of a text that is not valid UTF-8, at least one. They end
+/// before the first byte that cannot continue the character.
 std::size_t invalid_bytes(std::string_view text) {
   const auto byte = [&](std::size_t index) { return static_cast<unsigned char>(text[index]); };
   const unsigned lead = byte(0);

@@ -280,8 +280,8 @@ struct Tamed {
   std::vector<std::size_t> overflowing;
 };
 
-/// Replaces numbers that are too large. The parser stops at such a number; to report it together with all
-/// other faults, a body that has one is read a second time without them.
+/// Replaces numbers that are too large. The parser stops at such a number. To report it together with all
+/// other faults, a body with such numbers is read a second time without them.
 Tamed tame_overflowing(std::string_view body, core::Work& work) {
   Tamed tamed{std::string(body), {}};
   std::string& text = tamed.body;

@@ -114,7 +114,7 @@ Json options_schema() {
   return {{"type", "object"}, {"additionalProperties", false}, {"properties", std::move(properties)}};
 }
 
-/// The component of a status, and the header field that it has beside those of every answer.
+/// The component of a status, and its header field in addition to the common fields of every answer.
 struct Response {
   int status;
   std::string_view component;
@@ -144,7 +144,7 @@ constexpr std::array<Response, 15> kResponses{{
 struct ProblemExample {
   ErrorCode code;
   std::string_view detail;
-  std::string_view name = {};  // empty: that of the code
+  std::string_view name = {};  // empty: the name of the code
 };
 
 constexpr std::array<ProblemExample, 22> kExamples{{
@@ -305,8 +305,8 @@ bool needs_lines(const Json& value) {
 }
 
 /// Returns the text of a value in the layout of Prettier: two spaces of indent, lines of at most 110
-/// characters, values that fit on one line. `indent`: of the line on which it begins; `used`: characters on
-/// that line before it.
+/// characters, and values on one line if they fit. `indent`: the indent of the line on which it begins.
+/// `used`: characters on this line before it.
 std::string document_text(const Json& value, std::size_t indent, std::size_t used) {
   std::string line = on_one_line(value);
   const bool fits = used + line.size() <= kLineLength && !needs_lines(value);

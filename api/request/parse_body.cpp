@@ -129,7 +129,7 @@ namespace {
 
 /// The greatest usual heading, radians: one beyond a turn either way is probably in degrees.
 constexpr double kUsualHeading = 6.2831853071795865;  // radians
-/// The greatest usual speeds, beyond those of any robot: three turns a second, and 72 km/h.
+/// The greatest usual speeds. No robot is faster: three turns a second, and 72 km/h.
 constexpr double kUsualAngularSpeed = 20.0;  // radians per second
 constexpr double kUsualLinearSpeed = 20.0;   // metres per second
 
@@ -162,8 +162,8 @@ class Unusual {
 };
 
 /// Returns warnings about valid numbers that are probably in other units: headings of starts, goals and
-/// one-way zones, and speeds of robots; a sentence for each kind, with the first place and their number.
-/// `zones` is the member of the request, or absent. Costs less than reading the request.
+/// one-way zones, and speeds of robots. There is a sentence for each kind, with the first place and the
+/// number of places. `zones` is the member of the request, or absent. Costs less than reading the request.
 std::vector<std::string> unit_warnings(const std::vector<ParsedRobot>& robots, const JsonReader& zones) {
   Unusual headings(kUsualHeading);
   Unusual turning(kUsualAngularSpeed);
@@ -216,8 +216,8 @@ void set_default_start_safe_interval(const JsonReader& options, const std::vecto
   const bool in_motion = std::any_of(robots.begin(), robots.end(), [](const ParsedRobot& read) {
     return read.committed || read.robot.previous;
   });
-  // Within a horizon, robots that leave their places in time save repairs: 1000 robots in rounds of 5 s
-  // serve 1.1 times as many goals as with 0.
+  // Within a horizon, robots that leave their places in time make repairs unnecessary. 1000 robots in rounds
+  // of 5 s serve 1.1 times as many goals as with 0.
   constexpr double kWithHorizon = 1.0;
   if (in_motion && !is_given) plan.start_safe_interval = plan.horizon ? kWithHorizon : 0.0;
 }

@@ -98,8 +98,8 @@ class ProblemMaker {
     }
   }
 
-  /// Whether the fault is that of a goal which a robot has because it returns to its start, and the start has
-  /// the same one.
+  /// Whether the fault is at a goal that a robot has only because it returns to its start, and the start has
+  /// the same fault.
   bool is_told_at_start(const core::ProblemFault& found, const core::ProblemFaults& faults) const {
     using Kind = core::ProblemFault::Kind;
     const auto returns = [&](std::size_t robot) { return fleet_.robots[indices_[robot]].returns_to_start; };
@@ -219,12 +219,14 @@ class ProblemMaker {
   std::vector<std::vector<Fault>> errors_;
 };
 
-/// Makes the problem of a fleet with a map, and of its robots whose radius and start could be read; the
-/// faults of other robots hide none of these. Takes the map, the actions, the goals and the obstacles out of
-/// the fleet. Poses in obstacles, overlapping starts or last goals and committed motion that collides are
-/// faults; then there is no problem, nor if `work` is met. If invalid robots are to be reported, there is a
-/// problem, in which they are invalid and stand at their starts. `maps`, which may be null, has those of
-/// earlier requests.
+/// Makes the problem of a fleet with a map. It contains the robots whose radius and start could be read; the
+/// faults of other robots hide none of their faults. Takes the map, the actions, the goals and the obstacles
+/// out of the fleet.
+///
+/// Poses in obstacles, overlapping starts or last goals, and committed motion that collides are faults. Then
+/// there is no problem. There is none either if `work` is met. If invalid robots are to be reported, there is
+/// a problem: they are invalid and stand at their starts. `maps`, which may be null, has the maps of earlier
+/// requests.
 std::optional<MadeProblem> make_problem(Fleet& fleet, const JsonReader& root, core::Work& work,
                                         core::MapCache* maps) {
   return ProblemMaker(fleet, root, work, maps).run();
@@ -240,7 +242,7 @@ void tell_choice(const core::OpenGoal& goal, ReceivedRobot& received) {
   }
 }
 
-/// Returns what answers repeat of the robots. `errors` are those of each robot, or none.
+/// Returns what answers repeat of the robots. `errors` has the errors of each robot, or is empty.
 std::vector<ReceivedRobot> received(std::vector<ParsedRobot>& robots,
                                     std::vector<std::vector<Fault>> errors) {
   std::vector<ReceivedRobot> received(robots.size());
@@ -309,8 +311,8 @@ constexpr double kDefaultTolerance = core::kMaxTolerance;  // metres, seconds, r
 constexpr double kLargestTolerance = 1e9;
 constexpr Range kTolerance{0.0, kLargestTolerance, "(metres, seconds and radians)"};
 
-/// Returns the budget of a check: at least the default one, as the options may be those of the plan's
-/// request, which allowed less.
+/// Returns the budget of a check, at least the default budget. The options may come from the plan's request,
+/// which allowed less.
 std::chrono::nanoseconds check_budget(ParsedOptions options, const Limits& limits) {
   const auto least = static_cast<double>(limits.default_budget_ms);
   if (options.budget_ms) options.budget_ms = std::max(*options.budget_ms, least);

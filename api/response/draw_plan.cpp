@@ -22,7 +22,7 @@ using core::Pose;
 using core::Position;
 using core::Robot;
 
-/// Writes the elements of a picture. Its y axis points down, that of the map up.
+/// Writes the elements of a picture. Its y axis points down; the map's y axis points up.
 class Picture {
  public:
   Picture(const core::Problem& problem, const core::StopCondition& stop)

@@ -208,7 +208,7 @@ void end_visit(JsonWriter& json, std::size_t goal, const std::vector<GoalTexts>&
   json.end_object();
 }
 
-/// Writes the goals that are put off: the one that is inside of a zone, and those that follow it.
+/// Writes the goals that are put off: the goal that is inside a zone, and the goals after it.
 void write_goals_put_off(JsonWriter& json, const core::PostponedGoals& goals, const VerifiedPlan& verified,
                          const ReceivedRobot& received) {
   for (std::size_t k = 0; k < goals.count; ++k) {
@@ -220,9 +220,9 @@ void write_goals_put_off(JsonWriter& json, const core::PostponedGoals& goals, co
   }
 }
 
-/// Writes the visits of a plan, and those that it leaves at the horizon. A goal that is anywhere is none of
-/// the request. `put_off`: goals from the first of these on, if there are any, are not visited, so that the
-/// service at the last one before them has an end.
+/// Writes the visits of a plan, and the visits that it leaves at the horizon. A goal that is anywhere is not
+/// a goal of the request. `put_off`: the first goal, if any, from which on goals are not visited. Then the
+/// service at the goal before it has an end.
 void write_planned_visits(JsonWriter& json, const core::RobotPlan& plan, const core::Robot& robot,
                           const core::PostponedGoals* put_off, const ReceivedRobot& received,
                           const core::Position& origin) {
@@ -247,8 +247,8 @@ void write_planned_visits(JsonWriter& json, const core::RobotPlan& plan, const c
   }
 }
 
-/// Writes the member `visits`. The end of a way out that stands in for goals is none. At the last goal before
-/// those that are put off, the service ends, as at any other goal that is not the last one.
+/// Writes the member `visits`. The end of a way out that replaces a goal does not count. At the last goal
+/// before the goals that are put off, the service ends, as at any goal that is not the last one.
 void write_visits(JsonWriter& json, const core::RobotPlan& plan, const VerifiedPlan& verified) {
   const ReceivedRobot& received = verified.received[plan.robot];
   const core::Leaving* leaving = verified.problem.leaving(plan.robot);
@@ -267,7 +267,7 @@ std::optional<double> finest_lattice(const VerifiedPlan& verified) {
   return finest != spacings.end() ? std::optional(*finest) : std::nullopt;
 }
 
-/// Writes the spacing of the robot's lattice if it has another one than the finest.
+/// Writes the spacing of the robot's lattice, unless it is the finest of all.
 void write_own_lattice(JsonWriter& json, std::size_t robot, const VerifiedPlan& verified) {
   const auto finest = finest_lattice(verified);
   if (finest && verified.lattice_spacings[robot] != *finest) {

@@ -75,8 +75,8 @@ bool check_pose_pairs(const JsonReader& from, const JsonReader& to) {
   return false;
 }
 
-/// The zones that are for the robot, which is the first one of those that they name. So they are for every
-/// robot of the problem.
+/// The zones of the robot, which the zones name as the first robot. The result has them for every robot of
+/// the problem.
 std::vector<core::Zone> zones_of_robot(std::vector<core::Zone> zones) {
   std::erase_if(zones, [](const core::Zone& zone) { return !zone.is_for(0); });
   for (core::Zone& zone : zones) zone.robots.clear();
@@ -87,8 +87,9 @@ using PosesPart = std::span<const MatrixPose>;
 
 core::Goal goal_at(const MatrixPose& pose) { return {pose.position, pose.theta}; }
 
-/// The robot at each pose of `from`. The first one has all poses of `to` as its goals if they are to be
-/// checked. Robots have the last of them where it matters, as one that stays has no way out of zones.
+/// The robot at each pose of `from`. The first robot has all poses of `to` as its goals if they are to be
+/// checked. Other robots have the last pose as goal where it matters, because a robot that stays has no way
+/// out of zones.
 std::vector<core::Robot> robots_at(PosesPart from, PosesPart to, bool checks_all, const core::Robot& like,
                                    const std::vector<core::Zone>& zones) {
   const bool any_to_leave =
@@ -266,9 +267,9 @@ std::int64_t rounded_up(double number) {
   return static_cast<std::int64_t>(std::max(std::ceil(number - kRounding), 0.0));
 }
 
-/// Returns the whole number that stands for no way: more than a tour over all poses of `from` can take, in
-/// seconds and in metres, so that solvers avoid it, and no more than 32 bits with a sign. So small a number
-/// leaves solvers room for sums of many. None if `stop` is met first.
+/// Returns the whole number that stands for no way. It is more than a tour over all poses of `from` can take,
+/// in seconds and in metres, so that solvers avoid it. It has no more than 32 bits with a sign, which leaves
+/// solvers room for sums of many numbers. None if `stop` is met first.
 std::optional<std::int64_t> unreachable_number(const MatrixPoses& from, const core::TravelAnswers& answers,
                                                const core::StopCondition& stop) {
   std::int64_t most = 0;

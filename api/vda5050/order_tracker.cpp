@@ -12,9 +12,8 @@ namespace {
 /// Distances that differ by less are the same (metres): the earlier place counts.
 constexpr double kSameDistance = 1e-9;
 
-/// The place of these actions, from one to another, that is nearest to a position, where the path comes near
-/// to it for the first time; the earliest one, if there are several. None if it does not come nearer than
-/// kBesidePath.
+/// The place within these actions that is nearest to a position, where the path comes near it for the first
+/// time. If there are several, the earliest one. None if no place is nearer than kBesidePath.
 std::optional<core::ActionPlace> nearest_place(core::Actions actions, const core::ActionPlace& from,
                                                const core::ActionPlace& to, const core::Position& position,
                                                core::Work& work) {
@@ -240,7 +239,7 @@ core::Position position_of(const JsonReader& node) {
           position.find("y").value().number().value_or(0.0)};
 }
 
-/// The id of an action that serves a goal; none for one that only waits.
+/// The id of an action that serves a goal. None for an action that only waits.
 std::optional<std::string_view> service_id(const JsonReader& action) {
   if (action.find("actionType").string() == "fleetplanWait") return std::nullopt;
   return action.find("actionId").string();
@@ -329,7 +328,8 @@ std::vector<NodeServices> services_left(const OrderBase& base) {
 
 }  // namespace
 
-/// What the base had left is committed: its services are those of the committed actions, in their order.
+/// What the base had left is committed. Its services are the services of the committed actions, in their
+/// order.
 FinishedGoals OrderTracker::find_served_goals_of_base() const {
   FinishedGoals found;
   const auto& base = request_.bases[robot_];

@@ -185,7 +185,7 @@ double time_of(core::Actions actions, const core::ActionPlace& place) {
   return place.action == 0 ? actions.front().t_start : actions[place.action - 1].t_end;
 }
 
-/// The place of a fraction of a translation. One that is nearer to an end than rounding is that end.
+/// The place of a fraction of a translation. If it is nearer to an end than rounding, the end.
 core::ActionPlace place_in(const core::ActionProgress& progress, double length) {
   const double fraction = std::clamp(progress.fraction, 0.0, 1.0);
   if (fraction * length <= core::kSamePosition) return {progress.action, 0.0};

@@ -196,9 +196,9 @@ class StateReader {
     return references;
   }
 
-  /// Whether an error says that the last message was refused: it refers to the order and its update, or to
-  /// the order alone; then the vehicle has not accepted it, and does not have the order at all, unless the
-  /// type says that it is about a message. What refers to something else is about that.
+  /// Whether an error says that the last message was refused. It must refer to the order and its update, or
+  /// to the order alone. In the second case, the vehicle does not have the order at all, unless the type says
+  /// that the error is about a message. An error that refers to something else is about that.
   bool is_refusal(std::string_view type, const References& references) const {
     using To = References::To;
     if (!progress_.order_id || references.order == To::another || references.update == To::another) {
@@ -268,7 +268,7 @@ std::string_view sortable_time(const JsonReader& message) {
   return text;
 }
 
-/// Whether a message is newer than one that came before it in the list.
+/// Whether a message is newer than an earlier message in the list.
 bool is_newer(const JsonReader& later, const JsonReader& earlier) {
   const std::string_view time = sortable_time(later);
   const std::string_view other_time = sortable_time(earlier);

@@ -84,7 +84,7 @@ void write_parameter(JsonWriter& json, std::string_view key, const Value& value)
   json.begin_object().member("key", key).member("value", value).end_object();
 }
 
-/// Writes an order message. The names of members are those of the version.
+/// Writes an order message. The names of members depend on the version.
 class OrderWriter {
  public:
   OrderWriter(JsonWriter& json, const VdaRequest& request, std::size_t robot, const Order& order)

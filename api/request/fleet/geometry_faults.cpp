@@ -61,8 +61,8 @@ std::string fitting_unit(const Position& world, double radius, const core::Occup
   return "";
 }
 
-/// Returns the phrase of a fault about a pose whose centre is not on the map, and about its probable unit:
-/// "is at (52.5, 3), outside the map, which ...". Empty if the pose is on the map.
+/// Returns the phrase of a fault about a pose whose centre is not on the map, and about its probable unit.
+/// For example: "is at (52.5, 3), outside the map, which ...". Empty if the pose is on the map.
 std::string outside_text(const JsonReader& pose, double radius, const core::OccupancyGrid& grid,
                          const WorldFrame& frame) {
   const auto world = position_of(pose);

@@ -18,8 +18,8 @@ namespace fleetplan::api {
 namespace {
 
 constexpr double kTolerance = core::kContactTolerance;
-/// The most by which a rotation may deviate, radians: it is not drawn to a vertex, and the check of the
-/// answer allows it no more.
+/// The most by which a rotation may deviate, radians. Rotations are not drawn to a vertex, and the check of
+/// the answer allows no more.
 constexpr double kTurnTolerance = core::kSamePosition;
 /// What doubles lose in the times of the longest plan, seconds. A fast robot turns visibly in that time. The
 /// times of an action may have been as late as that, before /v1/advance made them earlier.

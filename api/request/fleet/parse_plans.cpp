@@ -99,7 +99,7 @@ void settle_choices(const JsonReader& json, const core::RobotPlan& plan, const W
   }
   if (read.open.empty()) return;
   if (is_told) return core::choose_unserved(read.robot, read.open, plan.actions, json.work().reading());
-  // A choice of the request is that of its own actions.
+  // In the request, a choice is about the robot's own actions.
   for (core::OpenGoal& open : read.open) open.is_told = false;
   core::settle_by_actions(read.robot, read.open, plan.actions, true, json.work().reading());
 }
@@ -135,8 +135,8 @@ class Roster {
  public:
   explicit Roster(const std::vector<ParsedRobot>& robots) : names_(robots) {}
 
-  /// Returns the index of the robot that a plan is for; none if it does not exist or has a plan already,
-  /// which is a fault.
+  /// Returns the index of the robot that a plan is for. It is a fault if the robot does not exist or already
+  /// has a plan; then returns none.
   std::optional<std::size_t> assign(const JsonReader& robot) {
     const auto index = names_.find(robot);
     if (!index) return std::nullopt;

@@ -28,7 +28,7 @@ constexpr std::int8_t kLeastOccupied = 65;  // percent
 constexpr double kOverlap = 2e-6;
 
 /// How the percentage of a cell limits the speed: to base + multiplier * percentage, in percent of the
-/// robot's own. The defaults are those of nav2_bringup.
+/// robot's own speed. The defaults are from nav2_bringup.
 struct SpeedRule {
   double base = 100.0;
   double multiplier = -1.0;
@@ -122,7 +122,7 @@ std::vector<Rectangle> rectangles_of(const Raster& raster, const MaskPlace& plac
   return found;
 }
 
-/// The value of a percentage: what cells are joined by; 0 for those that are left out.
+/// The value of a percentage, by which cells are joined. 0 for cells that are left out.
 std::int8_t value_of(std::int8_t percent, MaskKind kind, const SpeedRule& rule) {
   if (kind == MaskKind::blocked) return percent >= kLeastOccupied ? kFullOccupancy : std::int8_t{0};
   return percent > 0 && is_limit(rule.limit(percent)) ? percent : std::int8_t{0};
@@ -172,8 +172,8 @@ void check_size(const JsonReader& member, const Raster& raster, const WorldMap& 
                    " cells; give the resolution and the origin of the mask, as its map.yaml has them.");
 }
 
-/// Notes the values of a mask of speeds that are no limits, and those that limited to another speed before
-/// there were base and multiplier.
+/// Notes the values of a mask of speeds that are no limits. Also notes values whose limit was different
+/// before there were base and multiplier.
 void note_speeds(const JsonReader& mask, const Raster& raster, const SpeedRule& rule, const std::string& zone,
                  MaskNotes& notes) {
   std::array<bool, kFullOccupancy + 1> there{};

@@ -63,8 +63,8 @@ class Sides {
  public:
   explicit Sides(const Corners& corners) : corners_(corners) {}
 
-  /// Returns two sides that meet elsewhere than at their common corner, the earlier one first; none if there
-  /// are none, or if the reading is stopped.
+  /// Returns two sides that meet elsewhere than at their common corner, the earlier one first. None if there
+  /// are no such sides, or if the reading is stopped.
   std::optional<std::pair<std::size_t, std::size_t>> touching_sides(core::Work& work) const {
     std::vector<std::size_t> order(corners_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -91,7 +91,7 @@ class Sides {
     return meet(begin(first), end(first), begin(second), end(second));
   }
 
-  /// Whether the side after another one leads back along it.
+  /// Whether the next side leads back along this side.
   bool leads_back(std::size_t side, std::size_t next) const {
     return turn(begin(side), end(side), end(next)) == 0.0 &&
            (end(side) - begin(side)).dot(end(next) - begin(next)) < 0.0;
@@ -125,9 +125,12 @@ Corners parse_corners(const JsonReader& list, const WorldFrame& frame) {
   return list.fault_count() == faults ? corners : Corners{};
 }
 
-/// Reads the corners of a simple polygon, in the map frame. Fewer than three, one that equals the one before
-/// and borders that meet elsewhere than at their common corner are faults; then none are returned. All
-/// polygons together take their corners from the quota.
+/// Reads the corners of a simple polygon, in the map frame. All polygons together take their corners from the
+/// quota. These are faults; then no corners are returned:
+///
+/// - fewer than three corners,
+/// - a corner that equals the previous one,
+/// - sides that meet elsewhere than at their common corner.
 std::vector<core::Position> parse_polygon(const JsonReader& member, const WorldFrame& frame, Quota& corners) {
   const JsonReader list = member.array();
   if (!list || !corners.take(list)) return {};

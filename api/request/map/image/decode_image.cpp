@@ -254,8 +254,8 @@ class Notable {
   std::size_t free_unknown_ = 0;
 };
 
-/// Decodes rows from the top until `work` is met. `meanings` of the pixels are compared with those that they
-/// have with Humble; null: they are not.
+/// Decodes rows from the top until `work` is met. `meanings` of the pixels are compared with their meanings
+/// with Humble. Null: they are not compared.
 Result<DecodedImage, std::string> decode(ImageReader& reader, const ShadeRule& rule, const Meanings* meanings,
                                          core::Work& work) {
   const ImageHeader& header = reader.header();

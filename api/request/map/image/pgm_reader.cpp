@@ -154,7 +154,7 @@ std::string header_fault(const char* what, int max) {
          "; is it truncated or damaged?";
 }
 
-/// Returns where raw pixels begin: after one byte of white space, or two where lines end with carriage return
+/// Returns where raw pixels begin: after one byte of white space. After two if lines end with carriage return
 /// and line feed, as some editors write them.
 std::size_t raw_begin(std::span<const std::uint8_t> bytes, std::size_t header_end, std::uint64_t size) {
   const bool two =

@@ -1,9 +1,9 @@
-// Reads PNG by libpng. What is known of an image is what the library says of it; nothing is read past it. Its
-// errors leave by longjmp, over frames of the library and of the small functions here that call it; none of
-// these has an object with a destructor.
+// Reads PNG with libpng. The library says everything that is known about an image; nothing is read past it.
+// Its errors leave by longjmp, over frames of the library and of the small functions here that call it. None
+// of these frames has an object with a destructor.
 //
-// The library asks for all bytes by on_read, which asks the work: it reads little between two calls
-// (kReadAtOnce), and the chunks that it does not need are skipped without being decompressed.
+// The library asks for all bytes by on_read, which asks the work. It reads little between two calls
+// (kReadAtOnce). Chunks that it does not need are skipped without being decompressed.
 
 #include <png.h>
 
