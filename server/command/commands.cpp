@@ -199,7 +199,7 @@ class Pictures {
     }
   }
 
-  /// Writes the files. Returns the first one that could not be written, if any.
+  /// Writes the files. Returns the first file that could not be written, if any.
   std::optional<std::string> write() const {
     const auto is_missing = [](const std::string& file, const std::optional<std::string>& picture) {
       return !file.empty() && !(picture && write_file(file, *picture));

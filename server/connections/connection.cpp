@@ -18,8 +18,8 @@ using api::ErrorCode;
 constexpr std::uint64_t kMaxDropped = 1 << 20;
 /// The least rate of a body. A body that arrives more slowly falls behind; the read timeout limits how far.
 constexpr std::uint64_t kLeastBytesPerMs = 100;
-/// How long input is dropped after the last answer, so that the answer arrives: a close with unread input
-/// would reset the connection and could lose it.
+/// How long input is dropped after the last answer, so that the answer arrives. A close with unread input
+/// would reset the connection and could lose the answer.
 constexpr std::chrono::seconds kLinger{3};
 
 ErrorCode code_of(BadHead::Kind kind) {
@@ -246,7 +246,7 @@ void Connection::refuse(const BodyFault& fault) { refuse(code_of(fault.kind), fa
 /// Refuses the request. After this, the input cannot be understood.
 void Connection::refuse(ErrorCode code, const std::string& detail) {
   exchange_->close = unread_ = true;
-  const DirectAnswer answer = refusal(*exchange_, code, detail);  // the detail may be that of the body
+  const DirectAnswer answer = refusal(*exchange_, code, detail);  // the detail may be the body's detail
   body_.reset();
   answer_directly(answer);
 }

@@ -25,9 +25,9 @@ namespace {
 constexpr std::size_t kHoldBytes = 64 * 1024;
 constexpr int kListenBacklog = 511;
 
-/// The connection as cpp-httplib sees it: a request that stands for every request, as its own has been read
-/// already, and a way to write the answer. What the client does not accept at once goes to Exchange::unsent.
-/// When the answer has gone out as an EventStream, what cpp-httplib writes is discarded.
+/// The connection as cpp-httplib sees it: a fixed request, because the real request has already been read,
+/// and a way to write the answer. Data that the client does not accept at once goes to Exchange::unsent. If
+/// the answer has gone out as an EventStream, data that cpp-httplib writes is discarded.
 class ExchangeStream final : public httplib::Stream {
  public:
   explicit ExchangeStream(Exchange& exchange) : exchange_(exchange) {}

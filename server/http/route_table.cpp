@@ -7,8 +7,8 @@ namespace fleetplan::server {
 
 namespace {
 
-/// Returns the part of `path` that a route's braces stand for; all of it for the file of a folder, an empty
-/// text where the route has no braces. None when the route does not match.
+/// Returns the part of `path` that a route's braces stand for. For the file of a folder, the whole path; for
+/// a route without braces, an empty text. None if the route does not match.
 std::optional<std::string_view> matched(const Route& route, std::string_view path) {
   const std::string_view declared = route.path;
   const auto brace = declared.find('{');

@@ -143,9 +143,9 @@ std::size_t claimed_size(std::string_view coded) {
   return size;
 }
 
-/// Returns the number of bytes to parse, by which slots are given. A coded body is as large as it claims, or
-/// as JSON that is coded is, as a rule, if that is more. A body that may have a PNG is none of the small
-/// ones: the image of a large map has some kilobytes, and takes a second.
+/// Returns the number of bytes to parse, which decides about slots. A coded body counts with the size that it
+/// claims, or with the usual size of JSON that is coded, if that is more. A body that may have a PNG does not
+/// count as small: the image of a large map has some kilobytes, and takes a second.
 std::size_t bytes_to_parse(const Exchange& exchange, const api::Limits& limits) {
   constexpr std::size_t kRatio = 10;
   constexpr std::size_t kNotSmall = ParseSchedule::kSmall + 1;

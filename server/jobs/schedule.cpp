@@ -20,7 +20,8 @@ constexpr double kLeastEnough = 2.0;
 constexpr double kDeviations = 4.0;
 constexpr double kWaitMargin = 1.5;
 
-/// A plan is much smaller than another one with this part of its work at most. Times grow faster than work.
+/// A plan is much smaller than another plan if it has at most this part of the other's work. Times grow
+/// faster than work.
 constexpr double kMuchSmaller = 0.25;
 
 /// Whether a job of this kind lets any other have its turn while it goes on for long.
@@ -136,7 +137,7 @@ bool Schedule::precedes(const Job& a, const Job& b) const {
   return rank(a) < rank(b);
 }
 
-/// Whether a job that waits may have the turn of one that is interrupted for it.
+/// Whether a job that waits may take the turn of another job, which is interrupted for it.
 bool Schedule::may_take_over(const Job& job, const Job& from) const {
   if (from.in_lane && !job.need.is_short) return false;
   if (job.is_interrupted) return true;
@@ -235,8 +236,8 @@ double Schedule::enough_s(const Job& job) const {
   return expected * std::max(kLeastEnough, 1.0 + spread);
 }
 
-/// Returns the seconds that a job is expected to go on. One that computes longer than expected takes at least
-/// as long again as it has already. An improvement gives its turn away at once.
+/// Returns the seconds that a job is expected to go on. A job that computes longer than expected will take at
+/// least as long again as it has already. An improvement gives its turn away at once.
 double Schedule::remaining_s(const Job& job, Time now) const {
   if (job.state == State::improving) return 0.0;
   const double age_s = Seconds(job.computed + (now - job.since)).count();
@@ -256,8 +257,8 @@ double Schedule::own_wait_s(const Job& job) const {
   return own_s * static_cast<double>(clients_.size()) / static_cast<double>(size_.workers);
 }
 
-/// Returns the seconds until the job gets a turn that another one shares, after those that get it before;
-/// infinite if there is none for it.
+/// Returns the seconds until the job gets a turn that another job shares, after the jobs before it. Infinite
+/// if there is no such turn.
 double Schedule::wait_to_share_s(const Job& job, Time now) const {
   double least_s = std::numeric_limits<double>::infinity();
   for (const Job* from : jobs_) {

@@ -27,7 +27,7 @@ Helpers::Helpers(std::size_t workers) : workers_(workers) {
   // A job's own thread runs tasks as well, so one helper fewer is needed.
   try {
     for (std::size_t i = 1; i < workers_; ++i) threads_.emplace_back([this] { help(); });
-  } catch (const std::system_error&) {  // no more threads are granted: those that are there suffice
+  } catch (const std::system_error&) {  // no more threads are granted; the existing ones suffice
   }
 }
 

@@ -25,10 +25,15 @@ void open_standard_descriptors() {
   }
 }
 
-// The allocator's defaults let resident memory creep for hours under mixed load: it would have eight arenas
-// for each CPU, each with the peaks of the connections that happened to meet there, and it raises the size
-// from which blocks are given back at once to that of the largest block freed so far. Fixed, the size is
-// large enough for the planner's tables to stay, which come and go with each robot.
+// The allocator's defaults let resident memory creep for hours under mixed load, for two reasons:
+//
+// - It would have eight arenas for each CPU, each with the peaks of the connections that happened to meet
+//   there.
+// - Blocks from a certain size on are given back at once. It raises this size to the size of the largest
+//   block freed so far.
+//
+// The size is fixed here. It is large enough for the planner's tables to stay, which come and go with each
+// robot.
 void keep_memory_small(int workers) {
 #ifdef __GLIBC__
   constexpr int kGivenBackAtOnce = 4 << 20;  // bytes
@@ -56,7 +61,8 @@ double count_open_fds() {
   std::error_code error;
   const std::filesystem::directory_iterator fds("/proc/self/fd", error);
   if (error) return 0.0;
-  return static_cast<double>(std::distance(begin(fds), end(fds))) - 1.0;  // less that of the listing
+  return static_cast<double>(std::distance(begin(fds), end(fds))) - 1.0;  // without the listing's own
+                                                                          // descriptor
 }
 
 }  // namespace

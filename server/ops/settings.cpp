@@ -103,7 +103,7 @@ std::optional<std::string> size_fault(const std::string& flag, std::size_t bytes
   return "--" + flag + " must be " + range;
 }
 
-/// Returns the names of all environment variables that begin like those of settings.
+/// Returns the names of all environment variables with the prefix of settings.
 std::vector<std::string> prefixed_variables() {
   std::vector<std::string> names;
   for (char** variable = environ; *variable != nullptr; ++variable) {

@@ -114,7 +114,7 @@ class Inflater {
   Inflater(const Inflater&) = delete;
   Inflater& operator=(const Inflater&) = delete;
 
-  /// Returns the next decoded bytes, valid until the next call; empty at the end, if the rest is not valid,
+  /// Returns the next decoded bytes, valid until the next call. Empty at the end, if the rest is not valid,
   /// or if the stop condition is met.
   std::string_view next() {
     while (valid_ && !ended_) {

@@ -70,8 +70,8 @@ std::string_view take_line(std::string_view& rest) {
   return line;
 }
 
-/// Reads a request target in origin-form (`/a?b`), absolute-form (`http://host/a?b`) or, of OPTIONS,
-/// asterisk-form (RFC 9112, 3.2). None of them has a fragment.
+/// Reads a request target (RFC 9112, 3.2). It is in origin-form (`/a?b`), absolute-form (`http://host/a?b`)
+/// or, for OPTIONS, asterisk-form. No form has a fragment.
 std::optional<BadHead> parse_target(std::string_view target, RequestHead& head) {
   if (target.find('#') != std::string_view::npos) return BadHead{"The request target contains a fragment."};
   const auto scheme_end = target.find("://");
