@@ -1,10 +1,16 @@
-// Scripting surface, read-only, for tests and scripts: `window.fleetplan` has `time`, `duration`
-// (seconds), `playing`, `request`, `answer` and `check` (parsed JSON or null), `outdated` (if the answer is that of the
-// request before its edits, the ids of the robots whose plans no longer hold; else null), `selected` (id or null), `chosen` (ids),
-// `closest` ({ids, gap} of the two robots that are closest now, metres) and `least` ({t, gap, ids} when two
-// are closest in all of the plan), `poseOf(id)` (the pose drawn now, metres and radians), `stateOf(id)` and
-// `screenOf(id)` ({x, y, radius} of its disk on the canvas, CSS pixels); `pointOf({x, y})` is where a world
-// point is on the canvas.
+// Scripting surface, read-only, for tests and scripts. `window.fleetplan` has
+//
+// - `time` and `duration` (seconds), and `playing`,
+// - `request`, `answer` and `check`: parsed JSON or null,
+// - `outdated`: null unless the answer is for the request before its edits; then the ids of the robots whose plans no
+//   longer hold,
+// - `selected` (id or null) and `chosen` (ids),
+// - `closest`: {ids, gap} of the two robots that are closest now, metres,
+// - `least`: {t, gap, ids}, when two robots are closest in all of the plan,
+// - `poseOf(id)`: the pose drawn now, metres and radians,
+// - `stateOf(id)`,
+// - `screenOf(id)`: {x, y, radius} of the robot's disk on the canvas, CSS pixels,
+// - `pointOf({x, y})`: where a world point is on the canvas.
 
 export function offerHook(session, stage, fleet) {
   /** @type {any} */ (window).fleetplan = Object.freeze({

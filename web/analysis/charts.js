@@ -23,8 +23,8 @@ export function shareBar(label, share, words) {
 }
 
 /**
- * Quantiles as rows: {name, p10, p50, p90, max}, with a thin line up to the maximum, a band from p10 to p90 and a tick
- * at p50. `inWords(value)` formats a figure.
+ * Quantiles as rows: {name, p10, p50, p90, max}. A thin line reaches the maximum, a band goes from p10 to p90, and a
+ * tick marks p50. `inWords(value)` formats a figure.
  */
 export function quantileRows(title, rows, inWords) {
   const most = Math.max(...rows.map(({ max }) => max), 1e-9);

@@ -1,4 +1,4 @@
-// Comparing two plans of one request: the other one is played in lockstep, in a scene of its own or as ghosts, and the
+// Compares two plans of one request. The other plan is played in lockstep, in its own scene or as ghosts. The
 // differences are listed robot by robot.
 
 import { belongsTo, readDocument } from "../model/plan_file.js";
@@ -95,7 +95,7 @@ export class CompareSection {
     this.#compare();
   }
 
-  /** Lists the sources, with the one that was chosen. */
+  /** Lists the sources, including the chosen one. */
   #list(chosen) {
     const { input } = this.#choice;
     const sources = this.#session.hasPlan ? this.#sources : [];

@@ -113,7 +113,7 @@ export class FleetSection {
   }
 }
 
-/** How many rounds have ended, and the robots of the last one that do not get on. */
+/** How many rounds have ended, and the robots of the last round that do not get on. */
 function roundsInWords(rounds, { unplanned, stuck }) {
   const parts = [
     count(rounds, "round"),

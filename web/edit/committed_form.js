@@ -107,7 +107,7 @@ function textOf(committed) {
   return `[${committed.map((action) => JSON.stringify(action)).join(",\n")}]`;
 }
 
-/** An action with its times; one that is faulty, as it is. */
+/** An action with its times. A faulty action is shown as it is. */
 function inWords(action) {
   if (!isAction(action)) return JSON.stringify(action);
   return `${action.t_start.toFixed(2)} to ${action.t_end.toFixed(2)} s: ${actionInWords(action)}`;

@@ -1,5 +1,5 @@
-// The line below the scene that leads from a map to a plan: what the next click does, the radius of robots, and whether
-// they fit.
+// The line below the scene that leads from a map to a plan. It says what the next click does, the radius of robots, and
+// whether they fit.
 
 import { numbersOfNext, setDefault } from "../model/edit_request.js";
 import { misplaced } from "../model/placement.js";
@@ -70,7 +70,7 @@ export class PlacingPanel {
   }
 }
 
-/** Whether robots fit, in words; `wrong` are those that do not: see misplaced. */
+/** Whether robots fit, in words. `wrong`: the robots that do not fit, see misplaced. */
 function inWords(robots, wrong) {
   if (wrong.length === 0)
     return `${count(robots.length, "robot")}: ${robots.length === 1 ? "fits" : "all fit"}.`;

@@ -1,6 +1,6 @@
-// The page's address identifies what is open: an example by its name (#name), any other request by its
-// content if it is small enough (#r=…), so that it can be bookmarked and shared. A larger one is kept in this browser, and
-// the address identifies it here (#kept=…).
+// The page's address identifies what is open, so that it can be bookmarked and shared. An example has its name (#name).
+// Any other request has its content if it is small enough (#r=…). A larger request is kept in this browser, and the
+// address identifies it only here (#kept=…).
 
 import { FileError } from "../model/problem.js";
 import { freshId } from "./kept.js";
@@ -32,13 +32,13 @@ export class Address {
     addEventListener("beforeunload", (event) => {
       if (this.#isLarge && !this.#isKept) event.preventDefault(); // the browser asks whether to leave
     });
-    // The event's address: by now, the page may have put that of its request in place of it.
+    // The event's address: by now, the page may have replaced it by the address of its request.
     addEventListener("hashchange", ({ newURL }) => this.#follow(new URL(newURL).hash));
   }
 
   /**
-   * Opens what the address identifies, or else the `preferred` one of the examples ([{name}]), or the first one; resolves
-   * to whether it is what the address identifies.
+   * Opens what the address identifies. If it identifies nothing, opens the `preferred` example of `examples`
+   * ([{name}]), or the first one. Resolves to whether the address identified it.
    * @param {string | null} preferred
    */
   async begin(examples, preferred = null) {

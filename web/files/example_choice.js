@@ -82,7 +82,7 @@ export class ExampleChoice {
     }
   }
 
-  /** Draws a picture. One that cannot be drawn is tried again when it comes into sight once more. */
+  /** Draws a picture. If it cannot be drawn, it is tried again when it comes into sight again. */
   async #draw(name) {
     const found = this.#items.get(name);
     if (!found || found.scene !== null) return;

@@ -46,9 +46,13 @@ function kindOfContent(head) {
 }
 
 /**
- * What files [{name, head: Uint8Array}] opened together are:
- * {kind: "json", files: one or two}, {kind: "map", map}, {kind: "scenario", scenario, map: or null} or
- * {kind: "ros", yaml, images}. Throws FileError, with the files' names in it, for other combinations.
+ * What files [{name, head: Uint8Array}] opened together are. Throws FileError, with the files' names in it, for other
+ * combinations than these:
+ *
+ * - {kind: "json", files: one or two}
+ * - {kind: "map", map}
+ * - {kind: "scenario", scenario, map: or null}
+ * - {kind: "ros", yaml, images}
  */
 export function sortFiles(files) {
   /** @type {Record<string, any[]>} */

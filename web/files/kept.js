@@ -1,5 +1,5 @@
-// What is too large for an address, kept in this browser (IndexedDB) under ids: a database for requests {name, text},
-// another for plans {request, answer}, the texts of both.
+// Texts that are too large for an address, kept in this browser (IndexedDB) under ids. One database has requests {name,
+// text}. Another has plans {request, answer}, both as texts.
 
 const BY_TIME = "at";
 const MAX = 10; // of each; the oldest ones are dropped

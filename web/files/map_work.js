@@ -7,7 +7,7 @@ import { readRequestMap, requestMapOf } from "./request_map.js";
 import { classifyPixels, countCells, mergeCells, trimUnknown } from "./ros_map.js";
 import { readMask } from "./zone_masks.js";
 
-/** The functions by their names; each may resolve to its result. Those of files reject with FileError. */
+/** The functions by their names. Each may resolve to its result. Functions that read files reject with FileError. */
 export const MAP_WORK = {
   readMask,
   readMovingAiMap,

@@ -1,5 +1,5 @@
-// A worker that does the work of map_work.js, to keep the page responsive: each message {id, name, args} is answered by
-// {id, result}, or {id, fault, isOfFile} if it failed.
+// A worker that does the work of map_work.js, to keep the page responsive. It answers each message {id, name, args} by
+// {id, result}, or by {id, fault, isOfFile} if the work failed.
 
 import { FileError } from "../model/problem.js";
 import { MAP_WORK } from "./map_work.js";

@@ -1,6 +1,5 @@
-// Maps and scenarios of the MovingAI benchmarks (movingai.com/benchmarks). A map has a header, then a
-// character per cell; a scenario has a line for each start and goal, the first of which become the robots of
-// a request.
+// Maps and scenarios of the MovingAI benchmarks (movingai.com/benchmarks). A map has a header, then a character per
+// cell. A scenario has a line for each start and goal. The first lines become the robots of a request.
 
 import { FileError, quoted } from "../model/problem.js";
 import { linesOf, plusTimes } from "./text.js";
@@ -76,8 +75,8 @@ const COLUMNS =
   "optimal length.";
 
 /**
- * The entries of a `.scen` text: [{map, width, height, start, goal}], the map's file name, its size in cells,
- * and two cells {column, row}, row 0 the top one. Throws FileError.
+ * The entries of a `.scen` text: [{map, width, height, start, goal}]. They are the map's file name, its size in cells,
+ * and two cells {column, row}; row 0 is at the top. Throws FileError.
  */
 export function readMovingAiScenario(text) {
   const entries = [];
@@ -126,11 +125,12 @@ export function checkMapOf(entries, { rows }) {
 }
 
 /**
- * A request on `map` (of a request) for the first `count` entries that are possible for robots with
- * `defaults` ({radius, linear_speed, angular_speed}; m, m/s, rad/s), starts and goals at the cells' centres,
- * goals with any heading. An entry is skipped if a disk does not fit between the walls or overlaps an earlier
- * one: {request, cells, passedOver: {walls, overlaps}}, with `cells` the entries used. The map is of the size that the
- * entries give, see checkMapOf.
+ * A request on `map` (of a request) for the first `count` entries that are possible: {request, cells, passedOver:
+ * {walls, overlaps}}. `defaults` of robots: {radius, linear_speed, angular_speed}; m, m/s, rad/s. Starts and goals are
+ * at the cells' centres, goals with any heading.
+ *
+ * An entry is skipped if a disk does not fit between the walls or overlaps an earlier one. `cells` are the entries
+ * used. The map must have the size that the entries give, see checkMapOf.
  */
 export function scenarioRequest(map, entries, count, defaults) {
   const passedOver = { walls: 0, overlaps: 0 };

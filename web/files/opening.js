@@ -38,8 +38,8 @@ export class Opening {
     return this.#turn > 0;
   }
 
-  // Each of these resolves to whether it is open now; if not, the session has the problem, or it was
-  // cancelled or replaced by a newer choice.
+  // Each of these resolves to whether it is open now. If not, the session has the problem, or it was cancelled, or a
+  // newer choice replaced it.
 
   example(name) {
     return this.#choose(async () => {
@@ -49,8 +49,8 @@ export class Opening {
   }
 
   /**
-   * Opens files (File) that belong together, after a dialog if there is a choice. A plan that was `dropped` onto another
-   * one of the same robots is compared with it.
+   * Opens files (File) that belong together, after a dialog if there is a choice. A plan that was `dropped` onto
+   * another plan for the same robots is compared with it.
    */
   files(files, dropped = false) {
     return this.#choose(() => this.#reader.files(files), dropped);
@@ -77,8 +77,8 @@ export class Opening {
   }
 
   /**
-   * Opens the plan that this browser keeps of the present request, or of that before its edits: `load()` resolves to
-   * {request, answer}, the texts of both, or to null if there is none.
+   * Opens the plan that this browser keeps for the present request, or for the request before its edits. `load()`
+   * resolves to {request, answer}, the texts of both, or to null if there is no plan.
    */
   async keptPlan(load) {
     const session = this.#session;

@@ -1,6 +1,6 @@
-// Keeps the plan that is shown in this browser, so that it is there again after a reload: the entry of the browser's
-// history has its id as {plan}. It is opened like the files of the request that it is of and of the plan; the edits since
-// then follow.
+// Keeps the plan that is shown in this browser, so that it is there again after a reload. The entry of the browser's
+// history has its id as {plan}. It is opened like the files of the plan and of its request. The edits since then
+// follow.
 
 import { latestOnly } from "../model/latest.js";
 import { freshId } from "./kept.js";

@@ -30,7 +30,7 @@ export class Reader {
     this.#dialogs = new ImportDialogs(session, work);
   }
 
-  /** Closes the dialog that is open, if one is, and those of files that are still being read. */
+  /** Closes the dialog that is open, if there is one, and the dialogs of files that are still being read. */
   dismiss() {
     this.#turn += 1;
     this.#dialogs.dismiss();
@@ -118,7 +118,7 @@ export class Reader {
     return request && opened(scenario.name, request);
   }
 
-  /** The map that is open, if it can be the one that the scenario is for. */
+  /** The open map, if the scenario can be for this map. */
   #openMap(name, { map: mapName, width, height }) {
     const { grid } = this.#session.scene;
     if (grid?.rows === height && grid.lines.every((line) => line.length === width))

@@ -1,5 +1,5 @@
-// The maps of a request that are not rows of letters, read as the service reads them, to draw and edit them; and an
-// imported map as one of a request. It takes long for large maps, see map_work.js.
+// The maps of a request that are not rows of letters. They are read in the same way as by the service, to draw and edit
+// them. Also makes an imported map the map of a request. It takes long for large maps, see map_work.js.
 
 import { FileError } from "../model/problem.js";
 import { readImage } from "./map_image.js";

@@ -77,9 +77,9 @@ function thresholdIn(given, key, otherwise, warnings) {
 }
 
 /**
- * The grid of FREE, OCCUPIED and UNKNOWN cells for pixels from the top: {width, height, channels, largest, values},
- * with the channels of each pixel (gray; gray and alpha; red, green and blue; these and alpha) from 0 to `largest`.
- * The same as of the service for such an image.
+ * The grid of FREE, OCCUPIED and UNKNOWN cells for pixels from the top: {width, height, channels, largest, values}. It
+ * equals the service's grid for such an image. The channels of a pixel are from 0 to `largest`. They are gray; gray and
+ * alpha; red, green and blue; or red, green, blue and alpha.
  */
 export function classifyPixels(described, { width, height, channels, largest, values }) {
   const { resolution, origin } = described;
@@ -148,7 +148,7 @@ function occupancyOfHumble(described, pixel, largest) {
   return ((occupied - freeThresh) / (occupiedThresh - freeThresh)) * 100; // rounded by map_server, see cellOf
 }
 
-/** The cell of a percentage, or of null. That of Humble rounds: 64.5 to the even 64, which is unknown, 25.5 to 26. */
+/** The cell of a percentage, or of null. Humble rounds: 64.5 to the even 64, which is unknown, and 25.5 to 26. */
 export function cellOf(percent) {
   if (percent === null) return UNKNOWN;
   if (percent > LEAST_OCCUPIED - 0.5) return OCCUPIED;
@@ -190,8 +190,8 @@ export function trimUnknown(grid) {
 }
 
 /**
- * The grid with `factor` × `factor` cells merged into one, starting at the lower-left corner, which stays in
- * place: occupied if any is occupied or not on the map, otherwise unknown if any is.
+ * The grid with `factor` × `factor` cells merged into one, starting at the lower-left corner, which stays in place. A
+ * merged cell is occupied if any cell is occupied or not on the map. Otherwise, it is unknown if any cell is unknown.
  */
 export function mergeCells(grid, factor) {
   const columns = Math.ceil(grid.columns / factor);

@@ -11,8 +11,8 @@ export function quarterTurnsOf(yaw) {
 }
 
 /**
- * A raster {columns, rows, cells}, row by row from the top, of a resolution, whose lower-left corner is at `corner`,
- * turned: {columns, rows, cells, origin}, with the lower-left corner of the whole as `origin`.
+ * Turns a raster {columns, rows, cells}, row by row from the top, of a resolution, about its lower-left corner at
+ * `corner`. Returns {columns, rows, cells, origin}. `origin` is the lower-left corner of the whole.
  */
 export function turned({ columns, rows, cells }, resolution, corner, quarterTurns) {
   const isAcross = quarterTurns % 2 === 1;

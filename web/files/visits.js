@@ -1,6 +1,8 @@
-// The visits to the page in this browser. What was open at the end of the last one is open again, unless an address
-// says what to open. After a reload, it is what was open in this tab: Chromium gives the page the address of the time at
-// which the reload began, and loses the state of its entry in the history if the page has replaced that since then.
+// The visits to the page in this browser. What was open at the end of the last visit is open again, unless an address
+// says what to open.
+//
+// After a reload, the page opens what was open in this tab. Chromium gives the page the address at the begin of the
+// reload. If the page has replaced the state of its entry in the history since then, Chromium loses this state.
 
 const KEY = "fleetplan-visit"; // of both storages: {fragment, plan}, see Address and PlanKeeper
 

@@ -83,7 +83,7 @@ function readScalar(text, number) {
 
 function unescaped(text, number) {
   try {
-    return JSON.parse(text); // the escapes of JSON are those of YAML that matter in a file's name
+    return JSON.parse(text); // JSON has the escapes of YAML that matter in a file's name
   } catch {
     throw new FileError(`Line ${number}: the quoted text ${quoted(text)} is not understood.`);
   }

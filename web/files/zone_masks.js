@@ -11,8 +11,11 @@ const MULTIPLIER = -1;
 
 /**
  * What a mask on a map of a request looks like: {columns, rows, percents, limits, bounds}, row by row from the top.
- * `percents` are those of the pixels, 0 for unknown ones; `limits` by percentage the percent of a robot's speed, 0 where
- * there is no limit; `bounds` in the world. Null if it cannot be read: the service reports its faults.
+ * Null if it cannot be read: the service reports its faults.
+ *
+ * - `percents`: the percentage of each pixel, 0 for unknown pixels
+ * - `limits`: by percentage, the percent of a robot's speed, 0 if there is no limit
+ * - `bounds`: in the world
  */
 export async function readMask(mask, map) {
   const encoded = mask.png ?? mask.pgm;

@@ -57,8 +57,8 @@ export function standingAtStarts(request) {
 }
 
 /**
- * The plan file that checks the last goals: the robots with one stand there with their last radii, and nothing moves;
- * null if there are none. A goal that may be at one of several poses is at none of them yet.
+ * The plan file that checks the last goals. The robots with a goal stand there with their last radii, and nothing
+ * moves. Null if there are no such robots. A goal that may be at one of several poses has no pose yet.
  */
 export function standingAtGoals(request) {
   const { obstacles: _, ...still } = standingAtStarts(request);
@@ -105,8 +105,8 @@ export function placementErrors(request, violations, pose) {
 const inMetres = (value) => `${Number(value.toFixed(4))} m`;
 
 /**
- * Checks the session's request at once when it is opened, unless it is an example or a map without robots, and after
- * edits, when there was none for `rest` milliseconds. `validate(text)`: see service/client.js.
+ * Checks the session's request at once when it is opened, unless it is an example or a map without robots. Checks it
+ * after edits when there was no edit for `rest` milliseconds. `validate(text)`: see service/client.js.
  */
 export function watchRequest(session, validate, rest = REST_MS) {
   const later = latestOnly();
@@ -147,7 +147,7 @@ async function problemOf(request, validate) {
   }
 }
 
-/** Whether a request has no robots yet, as that of an opened map. */
+/** Whether a request has no robots yet, as when a map has been opened. */
 const isEmpty = (request) => Array.isArray(request?.robots) && request.robots.length === 0;
 
 /** A request without robots is not reported while it is being edited. */

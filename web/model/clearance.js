@@ -1,6 +1,6 @@
-// The exact clearance of robots over time: between two times at which any motion changes, all accelerate
-// evenly, and the least distance of two is exact, see relative_motion.js. Pure. Gaps in metres between the
-// disks, negative where they overlap.
+// The exact clearance of robots over time. Between two times at which any motion changes, all robots accelerate evenly.
+// Then the least distance of two robots is exact, see relative_motion.js. Pure. Gaps in metres between the disks,
+// negative where they overlap.
 
 import { Follower, knotTimes, lastKnot, relativeMotion, sortedOnce } from "./motion.js";
 
@@ -8,11 +8,12 @@ const SAMPLES = 600; // least number of windows, so that the curve is smooth
 const CONTACT = 1e-6; // metres that disks in contact may overlap
 
 /**
- * The smallest gap of any two motions, window by window: {t, gap, first, second, least} of equally long
- * arrays, where t[k] is the moment in window k when motions first[k] and second[k] are `gap[k]` apart, the
- * nearest in that window. `least` is the k of the smallest gap of all. Null with fewer than two motions. Without
- * `resting`, two that rest side by side do not count while they rest, unless they overlap; the gap of a window in which
- * no others are left is Infinity.
+ * The smallest gap of any two motions, window by window: {t, gap, first, second, least} of equally long arrays. In
+ * window k, motions first[k] and second[k] are nearest, `gap[k]` apart, at t[k]. `least` is the k of the smallest gap
+ * of all. Null with fewer than two motions.
+ *
+ * Without `resting`, two motions that rest side by side do not count while they rest, unless they overlap. If no others
+ * are left in a window, its gap is Infinity.
  */
 export function clearanceOf(motions, samples = SAMPLES, resting = true) {
   if (motions.length < 2) return null;
@@ -58,9 +59,9 @@ export function spellsBelow({ gap }, threshold) {
 }
 
 /**
- * Finds the nearest two of at least two motions, now or in a window of time. It sweeps the boxes of all
- * motions from left to right, whose order hardly changes between calls, and compares pairs whose boxes are
- * nearer than the least gap found so far.
+ * Finds the nearest two of at least two motions, now or in a window of time. It sweeps the boxes of all motions from
+ * left to right, whose order hardly changes between calls. It compares pairs whose boxes are nearer than the least gap
+ * found so far.
  */
 export class ClearanceSweep {
   #followers;

@@ -11,8 +11,8 @@ import { poseInAction } from "./timeline.js";
  */
 
 /**
- * The dependencies of an action of a robot: those that it waits for, as the gate is in it, and those of others that
- * wait for it, each in the order of the plan.
+ * The dependencies of a robot's action: those whose gate is in it, which it waits for, and those by which others wait
+ * for it. Each in the order of the plan.
  * @param {Dependency[]} dependencies
  * @param {string} robot
  * @param {number} action its number in the robot's plan

@@ -9,7 +9,7 @@ export function documentOf(opened = EMPTY) {
   return { opened, request: opened.request, answer: null, planned: null };
 }
 
-/** The document with another request; its answer is kept as that of the request before. */
+/** The document with another request. Its answer is kept as the answer to the request before. */
 export function edited(document, request) {
   return { ...document, request };
 }
@@ -20,8 +20,8 @@ export function answered(document, answer) {
 }
 
 /**
- * The robots whose plans do not hold in an edited document, as far as their own parts of the request tell; null if there
- * is no answer, or it is the present request's.
+ * The robots whose plans do not hold in an edited document, as far as their own parts of the request tell. Null if
+ * there is no answer, or if it is the answer to the present request.
  */
 export function outdatedIn({ answer, planned, request }) {
   return answer === null || planned === request ? null : changedRobots(answer, planned, request);

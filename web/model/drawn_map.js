@@ -1,5 +1,6 @@
-// Maps of a request that are not rows of letters (images, occupancy grids, texts of MovingAI) are read once, when
-// they are opened, and remembered as rows. So whatever draws or edits a map sees rows. Masks of zones likewise.
+// Maps of a request that are not rows of letters: images, occupancy grids, texts of MovingAI. They are read once, when
+// they are opened, and remembered as rows. So everything that draws or edits a map sees rows. The same holds for masks
+// of zones.
 
 /** @import {Mask, RequestMap} from "./types.js" */
 

@@ -8,8 +8,8 @@ import { setRobot } from "./edit_request.js";
 export const committedOf = (robot) => (Array.isArray(robot?.committed) ? robot.committed : []);
 
 /**
- * The actions of which the first ones can be committed: those of its plan, if they begin with the committed ones, else
- * the committed ones alone.
+ * The actions of which the first ones can be committed: the actions of the robot's plan, if they begin with the
+ * committed actions. Otherwise, only the committed actions.
  * @param {Action[]} planned
  * @returns {Action[]}
  */

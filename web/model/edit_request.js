@@ -1,6 +1,6 @@
-// Edits of a request: each takes a request and returns another one, which shares the unchanged parts. Nothing
-// is changed in place. Robots are identified by their index. Faulty requests are repaired as far as an edit
-// goes; a faulty map is edited as it is drawn, see readScene. Pure.
+// Edits of a request. Each takes a request and returns a new request, which shares the unchanged parts. Nothing is
+// changed in place. Robots are identified by their index. Faulty requests are repaired as far as an edit goes. A faulty
+// map is edited as it is drawn, see readScene. Pure.
 
 import { isFree, tidy } from "./cells.js";
 import { asRows } from "./drawn_map.js";
@@ -122,7 +122,7 @@ export function faultOfSize(columns, rows, limits) {
   return null;
 }
 
-/** The request with a changed map; one that is not rows becomes rows. */
+/** The request with a changed map. A map that is not rows becomes rows. */
 function withMap(request, changes) {
   const map = asRows(request?.map) ?? objectOf(request?.map);
   return { ...objectOf(request), map: withMembers(map, changes) };
@@ -150,8 +150,8 @@ export function setDefault(request, name, value) {
 }
 
 /**
- * The request with members of a robot's `pose`, "start" or "goal" (the last one), set: {x, y, theta}, undefined
- * ones removed (theta: the default of a start, any heading of a goal).
+ * The request with some members of a robot's pose set to {x, y, theta}. `pose`: "start", or "goal" for the last goal.
+ * Undefined members are removed. Without theta, a start has its default, and a goal any heading.
  */
 export function setPose(request, index, pose, members) {
   return withRobot(request, index, (robot) => {
@@ -166,8 +166,8 @@ export function removeGoal(request, index) {
 }
 
 /**
- * The radius and the speeds of a robot that is added: those of robot_defaults, else of the last robot, else defaults for
- * the map.
+ * The radius and the speeds of a robot that is added: the values of robot_defaults, or of the last robot, or defaults
+ * for the map.
  */
 export function numbersOfNext(request) {
   const last = objectOf(robotsOf(request).at(-1));

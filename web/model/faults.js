@@ -20,8 +20,8 @@ export function groupFaults(errors) {
 }
 
 /**
- * The disk of a robot that a fault points to or into, at its goal if it points there, else at its start: {x, y, radius};
- * null if there is none. A robot that is too faulty to be drawn may still have one.
+ * The disk of a robot that a fault points to or into: {x, y, radius}. It is at the goal if the fault points there,
+ * otherwise at the start. Null if there is no disk. A robot that is too faulty to be drawn may still have a disk.
  * @param {Request} request
  * @param {Scene} scene
  */
@@ -34,7 +34,7 @@ export function diskOf(request, scene, pointer) {
 }
 
 /**
- * Where in the scene a fault is: at a robot, a row of the map, an obstacle or a zone; null if it has no place there.
+ * Where in the scene a fault is: at a robot, a row of the map, an obstacle or a zone. Null if it has no place there.
  * @param {Request} request
  * @param {Scene} scene
  * @returns {Position | null}

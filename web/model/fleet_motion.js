@@ -149,8 +149,8 @@ export class FleetMotion {
   }
 
   /**
-   * The two robots that are nearest to each other at a time, by the answer or by the tracks of another plan: {ids, gap},
-   * or null if there are no two.
+   * The two robots that are nearest to each other at a time, by the answer or by the tracks of another plan: {ids,
+   * gap}. Null if there are no two robots.
    */
   nearestAt(time, tracks = this.#session.tracks) {
     if (tracks !== this.#session.tracks) return this.#nearestOf(tracks).at(time);
@@ -182,8 +182,8 @@ export class FleetMotion {
 }
 
 /**
- * A function that resolves to clearanceOf the motions that it is given, computed in a worker, unless it is called again
- * before; it rejects with ProblemError if the worker fails.
+ * Makes a function that resolves to clearanceOf its motions, computed in a worker. A newer call replaces an older one.
+ * It rejects with ProblemError if the worker fails.
  */
 export function clearanceJob() {
   let worker = null;

@@ -1,7 +1,8 @@
-// A fleet that keeps running: rounds of playing a plan, advancing its request to the end of the round, and planning the
-// next one meanwhile (see docs/fleet_loop.md). Robots that have arrived go to their start and back. A robot that is held or
-// released ends the round as soon as the next one may be planned; if it is not by then, nothing moves until it is. No DOM;
-// the service is passed in. Seconds.
+// A fleet that keeps running, in rounds: plays a plan, advances its request to the end of the round, and plans the next
+// one meanwhile (see docs/fleet_loop.md). Robots that have arrived go to their start and back.
+//
+// If a robot is held or released, the round ends as soon as the next one may be planned. If the next plan is not ready
+// by then, nothing moves until it is. No DOM; the service is passed in. Seconds.
 
 import { goalsOf, lastGoalOf } from "./goals.js";
 import { robotsOf } from "./listed.js";

@@ -1,6 +1,6 @@
-// The geometry of the timeline's chart: a row per robot, time to the right. Pure. Pixels from the upper left
-// corner; a layout is {left, width, top, height, rowHeight, scroll, rows, range}: where the rows are, how
-// far they are scrolled, how many there are, and the range of time {from, to} they show.
+// The geometry of the timeline's chart: a row per robot, time to the right. Pure. Pixels from the upper left corner. A
+// layout is {left, width, top, height, rowHeight, scroll, rows, range}: where the rows are, how far they are scrolled,
+// how many there are, and the range of time {from, to} that they show.
 
 const SHORTEST = 0.05; // seconds: the shortest range
 const STEPS = [1, 2, 5];
@@ -108,8 +108,8 @@ export function ticks({ from, to }, most) {
 }
 
 /**
- * The indices of the points of {t, gap}, ascending in t, to draw for a range of time with a width in pixels:
- * the lowest in each pixel, and one on either side of the range.
+ * The indices of the points of {t, gap}, ascending in t, to draw for a range of time with a width in pixels. They are
+ * the lowest point in each pixel, and one point on either side of the range.
  */
 export function thinned({ t, gap }, { from, to }, pixels) {
   const kept = [];

@@ -1,5 +1,5 @@
-// The goals of a robot of a request: `goals` in the order of its visits, or `goal` alone. A robot stays at its
-// last goal, which is the one that forms and handles edit. Faulty robots are read as far as possible. Pure.
+// The goals of a robot of a request: `goals` in the order of its visits, or `goal` alone. A robot stays at its last
+// goal, which forms and handles edit. Faulty robots are read as far as possible. Pure.
 
 /** The goals as they are in the request, the last one included. */
 export function goalsOf(robot) {

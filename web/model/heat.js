@@ -3,8 +3,9 @@
 const MAX_SQUARES = 180; // along the longer side of the map
 
 /**
- * The heat of a plan on a map: {columns, rows, size, values, most}, the top row first; `values` are the seconds that
- * robots wait in a square ("waiting"; services do not count), or how many robots pass it ("passage").
+ * The heat of a plan on a map: {columns, rows, size, values, most}, the top row first. For "waiting", `values` are the
+ * seconds that robots wait in a square; services do not count. For "passage", they are the numbers of robots that pass
+ * it.
  * @param {import("./types.js").Grid} grid
  * @param {Iterable<import("./types.js").Track>} tracks
  * @param {"waiting" | "passage"} kind

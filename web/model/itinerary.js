@@ -39,9 +39,9 @@ function short(value) {
 }
 
 /**
- * The robot that causes actions[index], a wait of the robot `id`. The following actions are shifted to the
- * start of the wait; the cause is the first other robot hit until the end of the plan: {robot, t}, or null.
- * `fleet` maps ids to motions; `margin` is a distance that counts as a hit, 0 for contact.
+ * The robot that causes the wait actions[index] of the robot `id`: {robot, t}, or null. The following actions are
+ * shifted to the start of the wait. The cause is the first other robot hit until the end of the plan. `fleet` maps ids
+ * to motions. `margin` is the distance that counts as a hit, 0 for contact.
  */
 export function causeOfWait(id, actions, index, fleet, margin = 0) {
   const shifted = motionWithout(actions, index, fleet.get(id));

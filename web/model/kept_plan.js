@@ -1,6 +1,7 @@
-// What still holds of a plan after its request was edited. A robot whose own part of the request changed is outdated at
-// once; of the others, the service's check of the plan under the edited request decides (POST /v1/validate). Outdated
-// robots stand at their starts, until the request is planned again. No DOM; the service is passed in.
+// The part of a plan that still holds after its request was edited. A robot whose own part of the request changed is
+// outdated at once. For the other robots, the service's check of the plan under the edited request decides (POST
+// /v1/validate). Outdated robots stand at their starts until the request is planned again. No DOM; the service is
+// passed in.
 
 import { goalsOf } from "./goals.js";
 import { latestOnly } from "./latest.js";

@@ -8,7 +8,10 @@ export function spacingOf(grid, request, answer) {
   return answer?.lattice_spacing ?? (asked > 0 ? asked : grid.resolution);
 }
 
-/** The points in a part of the map {left, bottom, right, top} whose cells are free: the centres of squares of a size, as many as nearest fit. */
+/**
+ * The points in a part of the map {left, bottom, right, top} whose cells are free. They are the centres of squares of a
+ * size; the number of squares is the nearest that fits.
+ */
 export function latticePoints(grid, spacing, part) {
   const { left, bottom, right, top } = grid.bounds;
   const range = (from, to, zero, end) => {

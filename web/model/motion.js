@@ -8,9 +8,11 @@ import { poseAtShare } from "./timeline.js";
 const CONTACT = 5e-7; // metres: disks that overlap by no more are in contact
 
 /**
- * The motion of a robot {start, radius} that executes `actions`: {radius, knots, ramps, radii}, the knots one after the
- * other as t, x, y, t, x, y, …; `ramps` has for each knot how the speed changes from the one before, see coveredShare;
- * `radii`, see readTracks, are those that it has later.
+ * The motion of a robot {start, radius} that executes `actions`: {radius, knots, ramps, radii}.
+ *
+ * - `knots`: the knots one after the other, as t, x, y, t, x, y, …
+ * - `ramps`: for each knot, how the speed changes from the knot before, see coveredShare
+ * - `radii`: the radii that the robot has later, see readTracks
  */
 export function motionOf(robot, actions, radii = []) {
   const knots = [];
@@ -25,9 +27,7 @@ export function motionOf(robot, actions, radii = []) {
   return { radius: robot.radius, knots: Float64Array.from(knots), ramps: Float64Array.from(ramps), radii };
 }
 
-/**
- * Appends a knot. Omits redundant ones, and those of a faulty plan that go back in time or are not finite.
- */
+/** Appends a knot. Omits redundant knots, and knots of a faulty plan that go back in time or are not finite. */
 function addKnot(knots, ramps, t, { x, y }, ramp) {
   const end = knots.length;
   if (!Number.isFinite(t + x + y) || (end > 0 && t < knots[end - 3])) return;
@@ -79,8 +79,9 @@ export function sortedOnce(numbers) {
 }
 
 /**
- * Follows a motion through time. `x`, `y` and `endX`, `endY` are its positions at both ends of a span, `bendX`, `bendY` how
- * its speed changes (see RelativeMotion), `radius` is that of all the span, and `rests` whether it does not move in it.
+ * Follows a motion through time. `x`, `y` and `endX`, `endY` are its positions at both ends of a span. `bendX`, `bendY`
+ * tell how its speed changes (see RelativeMotion). `radius` holds for the whole span. `rests`: whether it does not move
+ * in it.
  */
 export class Follower {
   x = 0;
@@ -146,7 +147,7 @@ export class Follower {
   }
 }
 
-/** The motion of one follower relative to another one, in the span at which both look. */
+/** The motion of one follower relative to another, in the span of both. */
 export function relativeMotion(a, b) {
   const [x, y] = [b.x - a.x, b.y - a.y];
   return new RelativeMotion(

@@ -11,7 +11,7 @@ export function readOptions(document) {
   );
 }
 
-/** A schema with the members of the one that it refers to, if any; its own take precedence. */
+/** A schema with the members of the schema that it refers to, if any. Its own members take precedence. */
 function resolved({ $ref, ...schema }, schemas) {
   return $ref === undefined ? schema : { ...schemas[$ref.split("/").at(-1)], ...schema };
 }

@@ -63,14 +63,17 @@ function endDisk(robot) {
   return { ...(robot.goal ?? robot.start), radius: robot.goal ? lastRadius(robot) : robot.radius };
 }
 
-/** Where robots other than `but` stay at the end, as disks. Those that yield need not stay, and others may go there. */
+/** Where robots other than `but` stay at the end, as disks. Robots that yield need not stay, so others may go there. */
 export const endDisks = ({ robots }, /** @type {Robot | null} */ but = null) =>
   robots
     .filter(({ id, yields }) => id !== but?.id && !yields)
     .map(endDisk)
     .filter((disk) => disk !== null);
 
-/** The middle of the cell at a world point, or of one within a radius of it, where a disk fits; null if there is none. */
+/**
+ * The middle of the cell at a world point, or of a cell within a radius of it, where a disk fits. Null if there is no
+ * such cell.
+ */
 export function placeWithRoom(grid, point, radius, others) {
   return nearestFreePlace(grid, snapPoint(grid, point, false), radius, others, 0, radius);
 }
@@ -96,8 +99,8 @@ export function misplaced(scene) {
 }
 
 /**
- * The middle of the cell nearest to a world point, but at least `beyond` and at most `within` metres away, where a disk of
- * this radius touches neither wall nor `others`, disks [{x, y, radius}]; null if there is none.
+ * The middle of the cell nearest to a world point where a disk of this radius touches neither walls nor `others`, disks
+ * [{x, y, radius}]. It is at least `beyond` and at most `within` metres away. Null if there is no such cell.
  */
 export function nearestFreePlace(grid, point, radius, others, beyond = 0, within = Infinity) {
   const home = cellAt(grid, point);

@@ -8,13 +8,14 @@ import { pathOf } from "./timeline.js";
 const SAME = 1e-6; // metres, seconds and radians
 
 /**
- * @typedef {"same" | "times" | "path" | "only here" | "only there"} Change of the plan of a robot: other times on the
- * same path, another path, or a plan in one of the two only
+ * The change of a robot's plan: other times on the same path, another path, or a plan in only one of the two.
+ *
+ * @typedef {"same" | "times" | "path" | "only here" | "only there"} Change
  * @typedef {{id: string, cost: number | null, other: number | null, difference: number | null, change: Change}} Row
  */
 
 /**
- * The differences of `plans` from `others`, robot by robot: those that changed first, by the size of the difference of
+ * The differences of `plans` from `others`, robot by robot. Changed robots come first, by the size of the difference of
  * their costs.
  * @param {Plan[]} plans
  * @param {Plan[]} others

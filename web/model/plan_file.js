@@ -5,7 +5,7 @@ import { FileError, quoted } from "./problem.js";
 
 const TYPES = ["rotate", "translate", "wait"];
 
-/** The document: the members of the answer (or null) beside those of the request. */
+/** The document: the members of the answer (or null) beside the members of the request. */
 export function planFile(request, answer) {
   return { ...request, plans: [], ...answer };
 }

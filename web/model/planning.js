@@ -15,7 +15,7 @@ export class Planning {
 
   /**
    * `view` has show(answer, continues), which shows an answer (null: none) that is not kept, and restore(), which shows
-   * the one that is. It emits the session's events.
+   * the kept answer. It emits the session's events.
    */
   constructor(session, service, view) {
     this.#session = session;

@@ -15,7 +15,7 @@ export function inertiaOf(robot, defaults = null) {
   return { rise, fall: inverse("linear_deceleration") || rise, turn: inverse("angular_acceleration") };
 }
 
-/** That of a robot, which had another one, after a goal whose load changes how it drives. */
+/** The inertia of a robot after a goal whose load changes how it drives. `inertia`: before. */
 export function inertiaAfter(goal, inertia) {
   const loaded = inertiaOf({
     linear_acceleration: goal?.linear_acceleration_after,
@@ -60,8 +60,8 @@ export function speedAt(action, t, amount) {
 }
 
 /**
- * The share of a way that is covered after a share of its time, while the speed changes evenly: it is 1 - ramp of its mean
- * at first, and 1 + ramp at last.
+ * The share of a way that is covered after a share of its time, while the speed changes evenly. The speed is 1 - ramp
+ * of its mean at first, and 1 + ramp at last.
  */
 export const coveredShare = (elapsed, ramp) => elapsed * (1 - ramp * (1 - elapsed));
 
@@ -72,8 +72,8 @@ function elapsedShare(covered, ramp) {
 }
 
 /**
- * The parts of an action in each of which its speed changes evenly, one after the other: from which share of its way to
- * which, and its `ramp`, see coveredShare. Where a robot is at any time, in all of the page, follows from them.
+ * The parts of an action, one after the other. In each part, the speed changes evenly. A part says from which share of
+ * the way to which it leads, and its `ramp`, see coveredShare. The page derives all positions of robots from them.
  * @param {Action} action
  * @returns {{t_start: number, t_end: number, from: number, to: number, ramp: number}[]}
  */

@@ -1,7 +1,8 @@
-// The motion of one point relative to another one, the origin, while the accelerations of both are constant: a parabola
-// (x, y) + s (way) - s (1 - s) (bend), with s from 0 to 1. The squared distance is of degree four in s; its extrema are
-// found between those of its derivative, which is monotone there. So distances are exact up to rounding, less than 1e-9 m
-// for coordinates below 1e5 m. Pure. Metres.
+// The motion of one point relative to another, the origin, while the accelerations of both are constant. It is a
+// parabola (x, y) + s (way) - s (1 - s) (bend), with s from 0 to 1.
+//
+// The squared distance is of degree four in s. Its extrema are found between the extrema of its derivative, which is
+// monotone there. So distances are exact up to rounding, less than 1e-9 m for coordinates below 1e5 m. Pure. Metres.
 
 const HALVINGS = 60; // of an interval within [0, 1], until rounding ends it
 

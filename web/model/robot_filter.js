@@ -9,8 +9,8 @@ const NONE = { text: "", doing: "all", delay: 0 };
 const DELAYED = "delayed";
 
 /**
- * Whether a robot passes a filter {text, doing, delay}: `text` is a part of its id in any case, `doing` is "all", a
- * state (see robotStateAt), or "delayed": its cost is more than `delay` seconds above its lower bound.
+ * Whether a robot passes a filter {text, doing, delay}. `text` is a part of its id in any case. `doing` is "all", a
+ * state (see robotStateAt), or "delayed": the robot's cost is more than `delay` seconds above its lower bound.
  */
 export function passes(filter, id, state, track) {
   if (!id.toLowerCase().includes(filter.text.trim().toLowerCase())) return false;

@@ -122,15 +122,19 @@ export function readScene(request, previous = null) {
 }
 
 /**
- * The track of each robot of the scene, by id: {status, actions, chosen, radii, path, cost, lowerBound, late, unplanned,
- * stuck, former}. The status is "ready" before there is an answer, then "planned", "parked" (it has no goal and does not move),
- * "unplanned" (it executes its committed actions, if any) or "outdated" (it stands at its start, and its plan, which no
- * longer holds, is the actions in `former`; the path is theirs);
- * `chosen` are the poses that the plan takes of goals with alternatives, by goal, null for the others;
- * `radii` are those that it has later, as [{t, radius}], each from its t on;
- * `lowerBound`, the lower bound of its cost (seconds), is null if the answer lacks it;
- * `late` are the goals at which it arrives after they were due: [{goal, seconds}];
- * `stuck` says by whom, if it gains nothing within the horizon, see stuckOf.
+ * The track of each robot of the scene, by id: {status, actions, chosen, radii, path, cost, lowerBound, late,
+ * unplanned, stuck, former}.
+ *
+ * - `status` before there is an answer: "ready"
+ * - `status` after that: "planned"; "parked" (it has no goal and does not move); "unplanned" (it executes its committed
+ *   actions, if any); or "outdated" (it stands at its start, because its plan no longer holds)
+ * - `former`: the actions of an outdated plan; then the path belongs to them
+ * - `chosen`: by goal, the pose that the plan takes of a goal with alternatives; null for other goals
+ * - `radii`: the radii that it has later, as [{t, radius}], each from its t on
+ * - `lowerBound`: the lower bound of its cost (seconds); null if the answer lacks it
+ * - `late`: the goals at which it arrives after they were due: [{goal, seconds}]
+ * - `stuck`: which robots block it, if it gains nothing within the horizon, see stuckOf
+ *
  * @param {Scene} scene
  * @param {Answer | null} answer
  * @param {Set<string> | null} outdated the ids of robots whose plans no longer hold
@@ -194,7 +198,10 @@ function lateOf(plan) {
   return visits.filter(({ late_by }) => late_by > 0).map(({ goal, late_by }) => ({ goal, seconds: late_by }));
 }
 
-/** When services at goals end, in their order: [{goal, t}]. Of a robot without a plan, those of its committed actions. */
+/**
+ * When services at goals end, in their order: [{goal, t}]. For a robot without a plan, the services of its committed
+ * actions.
+ */
 function leavesOf(robot, plan, actions) {
   if (!Array.isArray(plan?.visits)) return servicesOf(robot, actions, plan !== undefined);
   const reached = plan.visits.filter(({ t_arrive }) => t_arrive !== null);

@@ -1,5 +1,5 @@
-// When a robot has served its goals, by its actions alone: for answers without `visits`, such as the runs of a simulation,
-// and robots without a plan that execute what is committed. Pure. Seconds, metres, radians.
+// When a robot has served its goals, by its actions alone. For answers without `visits`, such as the runs of a
+// simulation, and for robots without a plan that execute their committed actions. Pure. Seconds, metres, radians.
 
 import { turnBetween } from "./timeline.js";
 

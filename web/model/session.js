@@ -2,11 +2,12 @@
 // independent of each other. No DOM; the service and the screen's frames are passed in.
 //
 // Features listen with on(names, listener):
-//   request   another request or an edit of it: `request`, `scene` and `tracks` are new. Detail: {opened},
-//             whether another one was opened or restored by undo or redo (true), or this one was edited (false); and
-//             {proceeded: true} if it is that of a later moment of the same fleet
-//   answer    another answer, or none, or what still holds of it: `answer`, `outdated`, `tracks` and the player are
-//             new; follows every "request", too
+//
+//   request   another request or an edit of it: `request`, `scene` and `tracks` are new. Detail: {opened}. It is true if
+//             a request was opened or restored by undo or redo, and false if this one was edited. {proceeded: true} if
+//             the request belongs to a later moment of the same fleet
+//   answer    another answer, or none, or the part of it that still holds: `answer`, `outdated`, `tracks` and the player
+//             are new. Follows every "request", too
 //   incumbent a better plan is shown while planning goes on, after "answer". Detail: whether it is the first one
 //   planning  planning started, progressed or ended: `planning`
 //   problem   a fault to show, or none: `problem`

@@ -22,8 +22,8 @@ function signedSpeed(action, t) {
 }
 
 /**
- * The speeds of a robot, at rest but for its actions, at t: `drive` in m/s, negative backwards, and `turn` in rad/s,
- * negative clockwise. Where two actions meet, those of the later one.
+ * The speeds of a robot at t: `drive` in m/s, negative backwards, and `turn` in rad/s, negative clockwise. Outside its
+ * actions, the robot is at rest. Where two actions meet, the speeds of the later action.
  * @param {Action[]} actions
  */
 export function speedsAt(actions, t) {
@@ -33,8 +33,8 @@ export function speedsAt(actions, t) {
 }
 
 /**
- * These speeds from 0 to the end of the last action, each as the corners [t, speed] of a line; two at one time are a
- * jump. The line is exact, as speeds change at constant rates.
+ * These speeds from 0 to the end of the last action, each as the corners [t, speed] of a line. Two corners at the same
+ * time are a jump. The line is exact, because speeds change at constant rates.
  * @param {Action[]} actions
  * @returns {{drive: [number, number][], turn: [number, number][]}}
  */

@@ -3,7 +3,7 @@
 /** @import {Answer, Blocked} from "./types.js" */
 
 /**
- * The robots of an answer that are stuck, as entries like those of `unplanned`.
+ * The robots of an answer that are stuck, as entries like the entries of `unplanned`.
  * @param {Answer | null} answer
  * @returns {Blocked[]}
  */

@@ -101,8 +101,9 @@ export class TravelField {
   }
 
   /**
-   * How long the robot takes to a square: {seconds, isNear}, Infinity if there is no way, `isNear` if it is to another
-   * square nearby as its own time is not known; null if the robot fits nowhere in it, or if nothing is known.
+   * How long the robot takes to a square: {seconds, isNear}. Infinity if there is no way. `isNear`: the time is for
+   * another square nearby, because its own time is not known. Null if the robot fits nowhere in the square, or if
+   * nothing is known.
    */
   timeTo(column, row) {
     for (const stride of [...STRIDES].reverse()) {

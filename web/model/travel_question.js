@@ -1,6 +1,6 @@
-// What is asked of the service (POST /v1/matrix): how long a robot takes, alone and from its start, to places. The
-// service searches once for each pose at the end, so places at the beginning take a hundredth of the time: it is asked
-// for the ways back, each of which takes as long, wherever that is so.
+// A question for the service (POST /v1/matrix): how long a robot takes, alone and from its start, to places. The
+// service searches once for each pose at the end, so places at the beginning take a hundredth of the time. The question
+// is about the ways back, wherever each of them takes as long.
 
 import { robotsOf } from "./listed.js";
 import { zonesFor } from "./zones.js";
@@ -37,8 +37,11 @@ function pick(object, names) {
 }
 
 /**
- * Whether ways back take as long as ways there: not through one-way zones, and ones that are left but not entered; not
- * if braking and speeding up differ; not beside walls that the robot keeps away from, unless it is there already.
+ * Whether ways back take as long as ways there. False in these cases:
+ *
+ * - There are one-way zones, or zones that robots may leave but not enter.
+ * - Braking and speeding up differ.
+ * - There is an inflation: the robot keeps it from walls, except where it already stands nearer.
  */
 function isSameBack(request, { id }, traits, options) {
   const { linear_acceleration: up, linear_deceleration: down = up } = traits;
@@ -74,7 +77,7 @@ export class TravelQuestion {
     this.#given = [map, zones, JSON.stringify([this.#numbers, robot.start])];
   }
 
-  /** Whether another one, or null, has the same answers. */
+  /** Whether another question (or null) has the same answers. */
   isSameAs(other) {
     return other !== null && this.#given.every((part, at) => part === other.#given[at]);
   }

@@ -1,5 +1,5 @@
-// How long the selected robot takes, alone and from its start, to every place of the map: asked of the service in parts,
-// from coarse to fine. What changes the times ends the work and begins it again. No DOM; the service is passed in.
+// How long the selected robot takes, alone and from its start, to every place of the map. The service is asked in
+// parts, from coarse to fine. If the times change, the work ends and begins again. No DOM; the service is passed in.
 
 import { latestOnly } from "./latest.js";
 import { ProblemError } from "./problem.js";

@@ -57,8 +57,13 @@
  */
 
 /**
- * An action; `goal`, of a wait, is the number of the goal that is served, from 0; `reverse`, of a translation, is
- * whether it goes backwards. `profile` has its speeds if they change, and `changes` the seconds of its changes.
+ * An action.
+ *
+ * - `goal`, of a wait: the number of the goal that is served, from 0
+ * - `reverse`, of a translation: whether it goes backwards
+ * - `profile`: its speeds, if they change
+ * - `changes`: how many seconds the changes take
+ *
  * @typedef {{type: "rotate" | "translate" | "wait", t_start: number, t_end: number, from: Pose, to: Pose,
  * goal?: number, reverse?: boolean, profile?: {start: number, cruise: number, end: number},
  * changes?: {rise: number, fall: number}}} Action
@@ -161,12 +166,19 @@
 /** @typedef {{left: number, bottom: number, right: number, top: number}} Bounds metres */
 
 /**
- * A robot as it is drawn, at `index` of the request's robots. A goal's theta is null for any heading. `via` are
- * the goals before the last one, null where they are faulty; `radiiAfter` are the radii that goals change, null where
- * they do not; `services` say how long they take, and from when on; `alternatives` are the poses at one of which each goal
- * is served, none of a goal with one pose, null where they are faulty; `committed` is the path of its committed actions;
- * `vicinity` is what it keeps from others; `makesWay` says whether it moves for others while it has nothing to do, and
- * `yields` whether it then need not come back.
+ * A robot as it is drawn, at `index` of the request's robots.
+ *
+ * - `goal`: its theta is null for any heading
+ * - `via`: the goals before the last one, null where they are faulty
+ * - `radiiAfter`: the radii that goals change, null where they do not
+ * - `services`: how long they take, and from when on
+ * - `alternatives`: for each goal, the poses at one of which it is served; none for a goal with one pose, null where
+ *   they are faulty
+ * - `committed`: the path of its committed actions
+ * - `vicinity`: the distance that it keeps from others
+ * - `makesWay`: whether it moves for others while it has nothing to do
+ * - `yields`: whether it then need not come back
+ *
  * @typedef {object} Robot
  * @property {number} index
  * @property {string} id

@@ -11,7 +11,7 @@ const TYPES = ["blocked", "speed", "one_way"];
 export const OCCUPIED = 65;
 
 /**
- * `grid`: that of the map, which masks lie on, or null.
+ * `grid`: the grid of the map, which masks lie on, or null.
  * @param {Grid | null} grid
  * @returns {Zone[]}
  */

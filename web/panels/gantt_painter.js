@@ -20,9 +20,13 @@ const HINT = "Plan to see the actions of all robots over time";
 const STATUS = { parked: "Parked", ready: "", outdated: "" };
 
 /**
- * `chart` has layout (see model/gantt.js, whose rows begin below the strip and the axis), ids (row by row),
- * session, colours (see RobotColours), curve (see clearanceOf, or null), beyondVicinity (see FleetMotion) and threshold
- * (of gaps, metres, or null).
+ * `chart` has
+ *
+ * - layout (see model/gantt.js; its rows begin below the strip and the axis),
+ * - ids (row by row), session and colours (see RobotColours),
+ * - curve (see clearanceOf, or null),
+ * - beyondVicinity (see FleetMotion),
+ * - threshold (of gaps, metres, or null).
  */
 export function paintGantt(context, chart) {
   const { layout, colours } = chart;
@@ -137,7 +141,7 @@ function paintContact(context, layout, theme, { t, gap }, [k, next], bottom) {
   context.globalAlpha = 1;
 }
 
-/** The largest gap in a range of time, at least that of contact. */
+/** The largest gap in a range of time; at least 0, the gap of contact. */
 function largestGap({ t, gap }, { from, to }) {
   let largest = CONTACT;
   for (let k = 0; k < t.length; k += 1) {

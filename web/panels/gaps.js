@@ -1,5 +1,5 @@
-// What the timeline says of gaps: whether they are between disks or beyond vicinities, and a threshold, below which they
-// are marked, and a button leads from one to the next.
+// The timeline's controls for gaps. Gaps are between disks or beyond vicinities. Gaps below a threshold are marked, and
+// a button leads from one to the next.
 
 import { spellsBelow } from "../model/clearance.js";
 import { byId, setText } from "../ui/dom.js";

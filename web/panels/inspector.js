@@ -264,8 +264,8 @@ function sharesOf({ moving, turning, waiting, distance }) {
 }
 
 /**
- * The corner for a card of some width and height in a scene {width, height}, `margin` {top, side, bottom}
- * away from its edges, that covers the fewest of the points.
+ * The corner for a card in a scene {width, height} that covers the fewest of the points. The card has some width and
+ * height, and is `margin` {top, side, bottom} away from the edges.
  */
 export function cornerFor({ width, height }, scene, margin, points) {
   const covered = CORNERS.map((corner) => {

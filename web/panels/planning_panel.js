@@ -54,7 +54,7 @@ export class PlanButton {
   }
 }
 
-/** The time budget of a request, seconds, or null if unknown. `limits` are those of the service. */
+/** The time budget of a request, seconds, or null if unknown. `limits`: the limits of the service. */
 export function budgetOf(request, limits) {
   const asked = request?.options?.time_budget_ms ?? limits.default_budget_ms;
   if (!(asked > 0)) return null;

@@ -117,7 +117,7 @@ function andMore(listed, total) {
   return total > listed.length ? `and ${count(total - listed.length, "more", "more")}` : null;
 }
 
-/** The robots in the way of another one, an entry of `unplanned` or of stuckOf; null if it names none. */
+/** The robots that block another robot, which is an entry of `unplanned` or of stuckOf. Null if it names none. */
 export function blockedBy(session, { blocked_by = [], blocked_by_total = 0 }) {
   if (blocked_by.length === 0) return null;
   const chips = blocked_by.map((id) => robotChip(session, id));

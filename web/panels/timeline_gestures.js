@@ -4,8 +4,8 @@ const TAP_SLACK = 6; // pixels
 const NEAREST = 16; // pixels: the least horizontal distance of two fingers that counts
 
 /**
- * Watches the scrolling box of a chart. `chart` has timeAt(x) and robotAt(y), in pixels within the box and
- * null where there is none, and over(y or null), called with the position of the pointer.
+ * Watches the scrolling box of a chart. `chart` has timeAt(x) and robotAt(y), in pixels within the box; they are null
+ * where there is none. It also has over(y or null), which is called with the position of the pointer.
  */
 export function watchScrubbing(box, session, chart) {
   let pressed = null; // {x, resume, moved} of the current press

@@ -1,5 +1,5 @@
 // The travel times of the selected robot to every place: their choice in the menu of the view, the legend, and the time
-// at the pointer, or in the middle of the view for who moves it by keys.
+// at the pointer. For people who move the view by keys, the time in its middle.
 
 import { bandsUpTo, shadeOf } from "../model/travel_field.js";
 import { ARROWS } from "../model/placement.js";

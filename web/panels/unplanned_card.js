@@ -1,4 +1,5 @@
-// The robots without a plan, by the reasons, and more time for those that had too little; and robots that are stuck.
+// The robots without a plan, by their reasons, and the robots that are stuck. Offers more time for robots that had too
+// little.
 
 import { stuckOf } from "../model/stuck.js";
 import { byId, element } from "../ui/dom.js";
@@ -22,8 +23,8 @@ export const REASONS = {
 };
 
 /**
- * Lists the robots that the session's answer leaves without a plan, and those that are stuck. `budgetOf(request, limits)`: see planning_panel.js;
- * `plan()` plans the request.
+ * Lists the robots that the session's answer leaves without a plan, and the robots that are stuck. `budgetOf(request,
+ * limits)`: see planning_panel.js. `plan()` plans the request.
  */
 export function watchUnplanned(session, budgetOf, plan) {
   const planLonger = (budget) => {

@@ -11,7 +11,7 @@ export async function welcome(session, plan) {
   if (session.example !== FIRST_EXAMPLE || session.answer !== null || session.planning !== null) return;
   const { request } = session;
   await plan();
-  if (session.request !== request || !session.hasPlan) return; // another one is open, or the service is busy
+  if (session.request !== request || !session.hasPlan) return; // another request is open, or the service is busy
   const box = byId("welcome");
   const close = () => {
     box.hidden = true;

@@ -1,6 +1,6 @@
-// A picture of what does not move, painted once for each camera. While the camera moves over many robots, the last
-// picture is shown in its new place instead, somewhat blurred; now and then another one is painted, in parts of which
-// each frame does one.
+// A picture of everything that does not move, painted once for each camera. While the camera moves over many robots,
+// the last picture is shown in its new place instead, somewhat blurred. Now and then, a new picture is painted in
+// parts; each frame paints one part.
 
 import { contextOf } from "../ui/dom.js";
 

@@ -1,5 +1,6 @@
-// Dependencies as arrows: in the scene from where a robot must have been to where another one may then pass, in the
-// timeline from the one moment to the other. Solid ones are waited for, dashed ones are waited for by others.
+// Dependencies as arrows. In the scene, an arrow leads from where a robot must have been to where another robot may
+// then pass. In the timeline, it leads from one moment to the other. The marked robot waits for solid ones. Others wait
+// for it by dashed ones.
 
 import { yOf, xOf } from "../model/gantt.js";
 import { drawPath } from "./marks.js";

@@ -1,5 +1,5 @@
-// Paints a scene on a canvas. What does not move during playback (map, starts, goals, paths) is painted on a
-// backdrop once for each camera; a frame is a copy of it, the robots and the overlays.
+// Paints a scene on a canvas. What does not move during playback (map, starts, goals, paths) is painted on a backdrop
+// once for each camera. A frame is a copy of it, the robots and the overlays.
 
 import { obstacleAt } from "../model/moving_obstacles.js";
 import { robotPoseAt, robotRadiusAt, robotStateAt } from "../model/scene.js";
@@ -64,9 +64,9 @@ export class Painter {
   }
 
   /**
-   * Paints the moment `time`; `marked` are the ids to bring out; `moving`: whether the camera is being moved. `overlays` are functions (context, view)
-   * where view has camera, viewport, ratio, time, tracks, marked, moving, theme, scale (pixels per metre) and
-   * screen(point), all in CSS pixels.
+   * Paints the moment `time`. `marked`: the ids to bring out. `moving`: whether the camera is being moved. `overlays`
+   * are functions (context, view). `view` has camera, viewport, ratio, time, tracks, marked, moving, theme, scale
+   * (pixels per metre) and screen(point), all in CSS pixels.
    */
   paint({ camera, viewport, ratio, time, marked, moving, overlays }) {
     if (!this.#scene || viewport.width === 0) return;
@@ -168,7 +168,7 @@ export class Painter {
     this.#heat.draw(context, { grid, tracks: this.#tracks, kind: heat, colour, screen, scale });
   }
 
-  /** The poses of which robots may choose: each once, as many of them are those of several robots. */
+  /** The poses of which robots may choose. Each is painted once, because several robots may have the same pose. */
   *#paintAlternatives(context, { scale }, screen) {
     const painted = new Set();
     for (const { alternatives, radius } of this.#scene.robots) {
@@ -182,7 +182,7 @@ export class Painter {
     }
   }
 
-  /** The goals of a robot, those that it has `chosen` among them; several ones with their numbers, from 1. */
+  /** The goals of a robot, including the poses that it has `chosen`. Several goals have their numbers, from 1. */
   #paintGoals(context, { via, goal }, chosen, radius, colour, screen) {
     const goals = [...via, goal].map((pose, at) => pose ?? chosen[at] ?? null);
     goals.forEach((each, at) => {

@@ -8,10 +8,12 @@ const WHEEL_GAIN = 0.002; // see wheelFactor
 const PINCH_GAIN = 0.01; // likewise, of two fingers on a touchpad, which come with ctrlKey
 
 /**
- * Watches an element. `handlers` has: pan(dx, dy), zoom(pixel, factor), hover(pixel or null), click(pixel);
- * and for presses that are not about the camera: press(pixel, event), which returns whether to capture the
- * pointer, then drag(pixel, event) once it has moved too far for a click, and release(pixel, event), or
- * abort() when a second finger makes it a pinch. The middle button is always about the camera.
+ * Watches an element. The middle button is always for the camera. `handlers` has
+ *
+ * - pan(dx, dy), zoom(pixel, factor), hover(pixel or null), click(pixel),
+ * - press(pixel, event), for presses that are not for the camera, which returns whether to capture the pointer,
+ * - drag(pixel, event), once the captured pointer has moved too far for a click,
+ * - release(pixel, event), or abort() when a second finger makes it a pinch.
  */
 export function watchGestures(element, handlers) {
   const pressed = new Map(); // pointer id -> last position

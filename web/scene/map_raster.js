@@ -15,8 +15,8 @@ export class MapRaster {
   #tiles = []; // [{canvas, column, row, columns, rows}]
 
   /**
-   * What to draw from now on: a grid (see readScene), which may be null, in CSS colours by the values of its cells, null
-   * for clear. Only the changed rows of an edited grid are painted again.
+   * What to draw from now on: a grid (see readScene), which may be null. `colours`: CSS colours by the values of its
+   * cells, null for clear. Only the changed rows of an edited grid are painted again.
    */
   show(grid, colours) {
     const before = this.#grid;
@@ -111,9 +111,9 @@ export class MapPreview {
   canvas = element("canvas", { class: "map-preview", role: "img" });
 
   /**
-   * Paints a map of these cells, row by row from the top; `colours` are names in the theme by the values of cells, null
-   * for the floor. `label` describes it. `mark(context, theme, place)` may add to it, where place(column, row) is the middle of a cell {x, y} with `cell`, a cell's
-   * side, in pixels.
+   * Paints a map of these cells, row by row from the top. `colours` are names in the theme by the values of cells, null
+   * for the floor. `label` describes it. `mark(context, theme, place)` may add to it. place(column, row) is the middle
+   * {x, y} of a cell with `cell`, a cell's side, in pixels.
    */
   paint({ columns, rows, cells }, colours, label, mark = /** @type {any} */ (null)) {
     const { canvas } = this;

@@ -6,8 +6,8 @@ const SMALLEST_LABEL = 8; // font pixels
 const CROSS = { width: 2, alpha: 0.9 };
 
 /**
- * A robot as a disk with a wedge for its heading and, if there is room, its label or, if `state` is not null,
- * the sign of its state; one without a plan is hollow and crossed out.
+ * A robot as a disk with a wedge for its heading. If there is room, it has its label or, if `state` is not null, the
+ * sign of its state. A robot without a plan is hollow and crossed out.
  */
 export function drawRobot(
   context,

@@ -1,5 +1,5 @@
-// Colours. The canvas uses the style sheet's custom properties, so that light and dark
-// are decided in one place; robots get hues of equal strength that are readable on both.
+// Colours. The canvas uses the style sheet's custom properties, so that light and dark are decided in one place. Robots
+// get hues of equal strength that are readable on both.
 
 import { Signals } from "../model/signals.js";
 
@@ -30,8 +30,8 @@ export const STATES_IN_WORDS = {
 };
 
 /**
- * The canvas's colours under the present theme; `states` are those of robots by state, `travel` those of travel times,
- * from short to long.
+ * The canvas's colours under the present theme. `states`: the colours of robots by state. `travel`: the colours of
+ * travel times, from short to long.
  */
 export function readTheme() {
   const style = getComputedStyle(document.documentElement);

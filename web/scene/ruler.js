@@ -1,5 +1,5 @@
-// The ruler: the distance and heading from one point to another. By mouse or finger, drag from point to point; by keys,
-// arrows move the end, a cell at a time or with Alt a tenth of one, and Enter puts the start to it.
+// The ruler: the distance and heading from one point to another. By mouse or finger, drag from point to point. By keys,
+// arrows move the end by a cell, or with Alt by a tenth of a cell. Enter moves the start to the end.
 
 import { cellAt, centreOf } from "../model/cells.js";
 import { ARROWS } from "../model/placement.js";

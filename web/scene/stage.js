@@ -19,10 +19,15 @@ const REACH = 6; // pixels: the least radius for picking a robot
 const NOWHERE = { left: 0, bottom: 0, right: 1, top: 1 };
 
 /**
- * The members of a tool, all optional: press(world, event) returns whether the tool handles the press,
- * followed by drag(world, event), unless it is a click, and release(world, event), or abort() if the press
- * became a pinch; hover(world or null); key(event) returns whether it handled the key; cursor(world) returns
- * a CSS cursor or null; paint(context, view) paints on top, see addOverlay. World points in metres.
+ * The members of a tool, all optional. World points are in metres.
+ *
+ * - press(world, event) returns whether the tool handles the press
+ * - drag(world, event) follows, unless it is a click
+ * - release(world, event) ends it, or abort() if the press became a pinch
+ * - hover(world or null)
+ * - key(event) returns whether it handled the key
+ * - cursor(world) returns a CSS cursor or null
+ * - paint(context, view) paints on top, see addOverlay
  */
 export class Stage {
   #session;
@@ -34,7 +39,7 @@ export class Stage {
   #fitted = true; // the camera fits the viewport until it is moved
   #look = { colours: "robot", paths: "whole", heat: "none", lattice: false, travel: null };
   #overlays = [];
-  #shared = []; // those that other scenes show, too
+  #shared = []; // the overlays that other scenes show, too
   #ownTool = {};
   #lentTool = /** @type {any} */ (null);
   #baseTool = {};
@@ -61,8 +66,8 @@ export class Stage {
   }
 
   /**
-   * `paint(context, view)` paints on top of each frame, in CSS pixels; see Painter for `view`. `shared`: also on the scene of
-   * another plan, whose tracks are those of the view then.
+   * `paint(context, view)` paints on top of each frame, in CSS pixels; see Painter for `view`. `shared`: also on the
+   * scene of another plan. There, the tracks of the view are the tracks of that plan.
    */
   addOverlay(paint, { shared = false } = {}) {
     this.#overlays.push(paint);
@@ -105,8 +110,13 @@ export class Stage {
   }
 
   /**
-   * The display options: {colours: "robot" or "state", paths: "whole", "remaining" or "none", heat: "none", "waiting" or
-   * "passage", lattice: whether it is shown, travel: {field: a TravelField} or null}.
+   * The display options: {colours, paths, heat, lattice, travel}.
+   *
+   * - colours: "robot" or "state"
+   * - paths: "whole", "remaining" or "none"
+   * - heat: "none", "waiting" or "passage"
+   * - lattice: whether it is shown
+   * - travel: {field: a TravelField} or null
    */
   get look() {
     return this.#look;
@@ -267,8 +277,8 @@ export class Stage {
   }
 
   /**
-   * Gestures on a canvas of the stage's size (see watchGestures) that move the camera and select robots; `robotAt(world)`
-   * returns the id of the one there, or null.
+   * Gestures on a canvas of the stage's size (see watchGestures). They move the camera and select robots.
+   * `robotAt(world)` returns the id of the robot there, or null.
    */
   cameraGestures(canvas, robotAt) {
     const world = (pixel) => toWorld(this.#camera, this.#viewport, pixel);

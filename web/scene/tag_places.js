@@ -6,8 +6,8 @@ export class TagPlaces {
   #taken = []; // {x, y, width}
 
   /**
-   * The middle of a name of some width, `beyond` pixels above the centre of its disk; below or beside the disk if another
-   * name is there.
+   * The middle of a name of some width, `beyond` pixels above the centre of its disk. If another name is there, below
+   * or beside the disk.
    */
   place({ x, y }, beyond, width) {
     const aside = beyond + width / 2;

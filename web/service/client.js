@@ -38,9 +38,9 @@ export async function fetchOpenApi() {
 }
 
 /**
- * Plans the request, a JSON text. Resolves to the answer; rejects with AbortError when aborted. Meanwhile
- * `listener` gets progress({elapsed_ms, attempt, planned, robots, best}) and incumbent(text), an answer's
- * text, if the service, or a proxy in between, streams events; and waiting(seconds) while the service is busy.
+ * Plans the request, a JSON text. Resolves to the answer; rejects with AbortError when aborted. If the service, or a
+ * proxy in between, streams events, `listener` gets progress({elapsed_ms, attempt, planned, robots, best}) and
+ * incumbent(text), an answer's text. While the service is busy, it gets waiting(seconds).
  */
 export async function plan(requestText, signal, listener) {
   return stream("v1/plan", requestText, signal, listener, "plan");
@@ -54,8 +54,8 @@ export async function simulate(text, progress) {
 }
 
 /**
- * The dependencies by which robots can execute a plan at their own pace: {dependencies, tight}, its own ones or those
- * that the service makes.
+ * The dependencies by which robots can execute a plan at their own pace: {dependencies, tight}. They are the plan's
+ * own, or the service makes them.
  */
 export async function dependencies(request, answer) {
   if (Array.isArray(answer.dependencies)) return answer;

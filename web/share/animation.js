@@ -1,5 +1,5 @@
-// The plan as an animation, made in the browser: encoded picture by picture, which takes less time than to play it, or,
-// where the browser has no encoder of pictures, recorded while it is played once.
+// The plan as an animation, made in the browser. It is encoded picture by picture, which takes less time than to play
+// it. If the browser has no encoder of pictures, it is recorded while it is played once.
 
 import { writeWebm } from "./webm.js";
 

@@ -1,5 +1,5 @@
-// A request and its plan as one HTML file that shows them anywhere, without a server: the scene, the player, the styles
-// and the scripts of the page in one document. It has no imports, so that it loads alone.
+// A request and its plan as one HTML file that shows them anywhere, without a server. It contains the scene, the
+// player, the styles and the scripts of the page. It has no imports, so that it loads alone.
 
 const VIEWER = new URL("viewer.js", import.meta.url);
 const IMPORT = /(\bfrom\s*|\bimport\s*)"(\.[^"]+)"/g;
@@ -77,7 +77,7 @@ async function gathered(entry) {
   return { code: await read(entry.href), modules };
 }
 
-/** All rules of a document's style sheets, those that they import included. */
+/** All rules of a document's style sheets, including imported style sheets. */
 function stylesOf({ styleSheets }) {
   const textOf = (sheet) =>
     [...sheet.cssRules]

@@ -1,6 +1,5 @@
-// Errors at the fields they are about. A field, or a group of fields, names what it edits in data-pointer, a
-// JSON Pointer into the request; an error is shown at the field with the same pointer, or with the nearest
-// one above.
+// Errors at the fields they are about. A field, or a group of fields, names what it edits in data-pointer, a JSON
+// Pointer into the request. An error is shown at the field with the same pointer, or with the nearest pointer above.
 
 import { element } from "./dom.js";
 

@@ -13,9 +13,9 @@ export class NumberField {
   #rejection = "";
 
   /**
-   * `label` and `unit` in words; `accept(value)` gets each new number, or undefined when the field is emptied
-   * unless it is `required`, and may return the reason of a rejection; `settle()` is called when typing has
-   * ended. `late`: accepts only then.
+   * `label` and `unit` in words. `accept(value)` gets each new number, or undefined when the field is emptied unless it
+   * is `required`. It may return the reason of a rejection. `settle()` is called when typing has ended. `late`: accepts
+   * only then.
    */
   constructor({ label, unit = "", step = "any", required = false, late = false, accept, settle = () => {} }) {
     made += 1;
