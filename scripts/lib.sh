@@ -23,7 +23,7 @@ die() { say "$*"; exit 1; }
 
 # ---------------------------------------------------------------- packages
 
-# missing_packages PACKAGE[:COMMAND]...: prints the names of those that are not installed.
+# missing_packages PACKAGE[:COMMAND]...: prints the names of the packages that are not installed.
 missing_packages() {
   local wanted installed
   installed=$(dpkg-query -W -f '${Package} ${Status}\n' "${@%%:*}" 2>/dev/null || true)
@@ -84,8 +84,8 @@ need_promtool() {
 
 # ---------------------------------------------------------------- users
 
-# become_invoking_user SCRIPT [ARGS...]: when run through sudo, starts the script again as the user who called
-# sudo, so that the build belongs to that user; stays root if that user cannot write to the project.
+# become_invoking_user SCRIPT [ARGS...]: when run through sudo, starts the script again as the user who called sudo. So
+# the build belongs to this user. Stays root if this user cannot write to the project.
 become_invoking_user() {
   [ "$(id -u)" = 0 ] && [ "${SUDO_UID:-0}" != 0 ] || return 0
   local entry name home

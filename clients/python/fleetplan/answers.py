@@ -91,7 +91,7 @@ def check_plan(request: PlanRequest, answer: PlanAnswer) -> None:
 
 
 def check_dependencies(request: PlanRequest, answer: PlanAnswer, made: Mapping[str, object]) -> None:
-    """Those that were asked for by themselves."""
+    """Checks dependencies that were requested separately."""
     whole = dict(answer)
     whole.update({name: made.get(name) for name in ("dependencies", "tight")})
     check_plan(request, whole)  # type: ignore[arg-type]

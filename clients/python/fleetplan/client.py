@@ -34,10 +34,10 @@ class Client:
 
     def __init__(self, url: str = "http://localhost:8080", *, token: str | None = None, timeout: float = 10.0,
                  patience: float = 30.0, context: ssl.SSLContext | None = None, max_answer: int = _MAX_BYTES) -> None:
-        """`token`: of servers that require one. `timeout`: seconds that a request may take as a whole, from its
-        connection to the end of its answer, beside its time budget; between events, the server may be silent for so
-        long. `patience`: seconds in which a request to a busy server is sent again; 0 for never. `context`: of https;
-        by default, the certificates that the system trusts. `max_answer`: bytes of an answer, or of an event."""
+        """`token`: for servers that require a token. `timeout`: seconds that a request may take as a whole, beside its
+        time budget, from its connection to the end of its answer. The server may also be silent for so long between
+        events. `patience`: seconds in which a request to a busy server is sent again; 0 for never. `context`: for
+        https; by default, the system's trusted certificates. `max_answer`: bytes of an answer, or of an event."""
         self._pool = Pool(url, context)
         if not timeout > 0.0 or not patience >= 0.0 or max_answer < 1:
             raise InvalidValue("timeout and max_answer are more than 0, and patience is not negative")
@@ -74,8 +74,8 @@ class Client:
                 states: Sequence[RobotState] = (), poses: Sequence[MeasuredPose] | Sequence[VehiclePose] = (),
                 holds: Sequence[Hold] = (), goals: Sequence[NewGoals] = (),
                 pose_tolerance: float | None = None) -> AdvanceAnswer:
-        """The request of the moment `at`, seconds after the start of these plans, and where robots are in it. States and
-        poses may be those of import_vda5050."""
+        """The request of the moment `at`, seconds after the start of these plans, and the robots' positions in the
+        plans. States and poses may come from import_vda5050."""
         body = _given(request=request, plans=plans["plans"], at=at, commit=commit, states=states or None,
                       poses=poses or None, holds=holds or None, goals=goals or None, pose_tolerance=pose_tolerance)
         return cast(AdvanceAnswer, self._post("/v1/advance", body, request))
@@ -145,7 +145,9 @@ class Client:
                        serial_numbers: Mapping[str, str] | None = None, release_ahead: float | None = None,
                        allowed_deviation: float | None = None,
                        base: Sequence[OrderBase] = (), progress: Sequence[OrderProgress] = ()) -> Vda5050States:
-        """What vehicles report. `messages`: the last state of each, whatever it is; the other parameters are those of the last export."""
+        """What vehicles report. `messages`: the last state message of each vehicle, with any content. The other
+        parameters are the same as for the last export.
+        """
         body = _vda5050(request, plans, version=version, manufacturer=manufacturer, manufacturers=manufacturers,
                         timestamp=timestamp, map_id=map_id, map_ids=map_ids, serial_numbers=serial_numbers,
                         release_ahead=release_ahead, allowed_deviation=allowed_deviation, base=base or None,
@@ -174,7 +176,7 @@ class Client:
     # ---------------------------------------------------------------- requests
 
     def _post(self, path: str, body: Mapping[str, object], request: Mapping[str, object] | None = None) -> object:
-        """`request`: the one that has the options, if it is not the body."""
+        """`request`: the request with the options, if it is not the body."""
         return self._answer("POST", path, body, _budget(request or body))
 
     def _answer(self, method: str, path: str, body: Mapping[str, object] | None = None,
@@ -266,7 +268,7 @@ def _retry_after(header: str | None) -> float:
 
 
 def _given(*parts: Mapping[str, object], **members: object) -> dict[str, object]:
-    """All members of the parts, and those that are not None."""
+    """All members of the parts, and the other members that are not None."""
     body: dict[str, object] = {}
     for part in parts:
         body.update(part)

@@ -62,8 +62,8 @@ def limits_of(request: PlanRequest, robot: Robot) -> Limits:
 
 def limits_by_action(request: PlanRequest, robot: Robot, actions: Sequence[Action],
                      visits: Sequence[Visit] | None) -> list[Limits]:
-    """The limits of a robot in each of its actions: goals change them from the end of the service there on. `visits`:
-    those of the plan; None: they are what the waits of the actions say."""
+    """The limits of a robot in each of its actions. Goals change the limits at the end of their service. `visits`: the
+    visits of the plan. None: the waits of the actions tell the visits."""
     limits, goals = limits_of(request, robot), goals_of(robot)
     left = _service_ends(actions) if visits is None else [
         (visit["t_leave"], visit["goal"]) for visit in visits
@@ -109,8 +109,8 @@ class Course:
 
     def __init__(self, start: Pose, actions: Sequence[Action], goals: Sequence[Goal] = (),
                  wait_before_move: float = 0.0, limits: Sequence[Limits] = ()) -> None:
-        """`goals`: those of the request, which the waits of the plan number. `limits`: of the robot, by action;
-        without, its speed changes at once."""
+        """`goals`: the goals of the request, to which the numbers in the plan's waits refer. `limits`: the robot's
+        limits, by action. Without limits, its speed changes at once."""
         self.start = start
         self._limits = limits or [Limits()] * len(actions)
         self.actions = actions
@@ -195,8 +195,9 @@ class Course:
         return not any((self._goes_on_with(before) or 0) >= index for before in range(max(0, index - 2), index))
 
     def room(self, place: Place, limit: Place) -> float:
-        """Metres, or radians of a rotation, from a place to where the robot has to stand, as it may not pass the
-        limit: translations in the same direction follow each other without a stop, but for a turn that is steered."""
+        """Metres, or radians of a rotation, from a place to where the robot has to stand, because it may not pass the
+        limit. Translations in the same direction follow each other without a stop, unless a turn is steered between
+        them."""
         index = self.index(place)
         room = (min(limit, index + 1) - place) * self._amounts[index]
         while (following := self._goes_on_with(index)) is not None and limit > following:
@@ -205,16 +206,16 @@ class Course:
         return room
 
     def room_at_speed(self, place: Place, deceleration: float) -> float:
-        """Metres from a place to where the robot would stand if it braked all the time, and slows down for the next
-        action as planned; infinite if that begins at rest."""
+        """Metres from a place to where the robot would stand if it braked all the way. It would drive into the next
+        action at the planned speed. Infinite if the next action begins at rest."""
         index = self.index(place)
         end = self.actions[index].get("profile", {"end": 0.0})["end"]
         return (index + 1 - place) * self._amounts[index] + end * end / (2.0 * deceleration) if end > 0.0 else math.inf
 
     def located(self, pose: Pose, place: Place, limit: Place, near: float) -> Place:
-        """Where a robot is by its measured pose: from the place where it has been on. It has done an action of which
-        less than `near` is left (metres; radians of a rotation), or that is steered, and is at the limit likewise; past
-        the limit, it is in the same action."""
+        """Where a robot is by its measured pose. `place`: where it has been. An action is done if less than `near` of
+        it is left (metres; radians of a rotation), or if it is steered. In the same way, the robot is at the limit if
+        it is near it. Past the limit, it is still in the same action."""
         while place < self.end and self.actions[self.index(place)]["type"] != "wait":
             index = self.index(place)
             done, amount = max(place, index + self._share(index, pose)), self._amounts[index]

@@ -45,8 +45,8 @@ class RoundFailed(FleetplanError):
 
 
 class PlanDropped(FleetplanError):
-    """Robots could not stop any more before closed gates of a plan that was made while they drove, for so long that the
-    next plan is better."""
+    """The plan was dropped. It was made while robots drove, and some of them could no longer stop before its closed
+    gates. This lasted for so long that the next plan is better."""
 
 
 @dataclass(frozen=True)

@@ -1,8 +1,8 @@
-"""Executes plans by robots that are late: docs/execution.md is its contract.
+"""Executes plans with robots that are late: docs/execution.md is its contract.
 
-Each robot goes along its own actions, in order, and does not pass a gate before the robot that it waits for has made
-the progress that opens it. Nothing here talks to robots or reads a clock: `Executor` says what each robot should do
-now, and takes what robots report.
+Each robot goes along its own actions, in order. It does not pass a gate before the robot that it waits for has made the
+progress that opens the gate. Nothing here talks to robots or reads a clock. `Executor` says what each robot should do
+now, and takes the robots' reports.
 """
 
 import math
@@ -63,7 +63,7 @@ class _Gate:
 
 @dataclass(frozen=True)
 class _Clock:
-    """Where the plan has too little slack for gates: until this time of the plan, a robot is not ahead of another one
+    """For gates with too little slack in the plan. Until this time of the plan, a robot is not ahead of another robot
     by more than planned."""
 
     other: str
@@ -98,9 +98,9 @@ class _Progress:
 class Executor:
     """Executes one plan after the other.
 
-    It keeps to what dependencies promise: where `tight` of the plan is empty, robots never come closer than the sum of
-    their radii and execution margins. Pairs in `tight` keep the clock: the second to pass is not ahead of the first by
-    more than planned. Times are those of one clock, in seconds, which the caller reads.
+    It keeps the promises of dependencies. If `tight` of the plan is empty, robots never come closer than the sum of
+    their radii and execution margins. Pairs in `tight` keep the clock: the second robot to pass is not ahead of the
+    first by more than planned. Times are from one clock, in seconds, which the caller reads.
     """
 
     def __init__(self, request: PlanRequest, answer: PlanAnswer, now: float, *, early: bool = True,
@@ -108,13 +108,15 @@ class Executor:
                  near: float = 0.01) -> None:
         """`answer`: with dependencies. `now`: when the plan begins.
 
-        `early`: robots may be ahead of the plan, and skip waits that only let others pass. Without, no action begins
+        `early`: robots may be ahead of the plan, and skip waits that only let others pass. Without it, no action begins
         before its time, which moving obstacles need.
-        `deceleration`: metres per second squared, of all robots or by robot, and `reaction`: seconds from a report to
-        the execution of the instruction that follows. With these, the speed is what allows to stop in time. By default,
+
+        `deceleration`: metres per second squared, of all robots or by robot. `reaction`: seconds from a report to the
+        execution of the instruction that follows. With these, the speed allows the robot to stop in time. By default,
         robots brake as the request says (`linear_deceleration`), if it does.
-        `near`: a robot that has less than so many metres (radians) left of an action has done it, and one that is so
-        near to a gate is there. The execution margin should be at least as much."""
+
+        `near`: a robot with less than so many metres (radians) left of an action has done it. A robot that is so near
+        to a gate is at the gate. The execution margin should be at least as large."""
         self._early, self._deceleration, self._reaction, self._near = early, deceleration, reaction, near
         self.plan = 0  # the number of the plan
         self.start = now  # of the plan: its time 0
@@ -212,9 +214,11 @@ class Executor:
 
     def commit(self, request: AdvanceAnswer, places: Mapping[str, Place], begin: float) -> list[str]:
         """While a plan is made for a request of `/v1/advance`, robots go on to the end of their commitments and no
-        further: that plan goes on from there. They are not ahead of them either, unless robots may be early: a late
-        robot has its waits still before it. `places`: where they were at `begin`, the moment of the request. Returns
-        the robots that are further already; then the plan cannot be followed."""
+        further. The new plan begins there. Robots are not ahead of their commitments either, unless they may be early:
+        a late robot still has its waits before it.
+
+        `places`: where they were at `begin`, the moment of the request. Returns the robots that are already further. If
+        there are any, the plan cannot be followed."""
         self._committed_at = places
         self._begins_at = {entry["robot"]: whole(entry["is"]) for entry in request.get("progress", [])}
         for robot in request["robots"]:
@@ -229,16 +233,18 @@ class Executor:
                 if progress.course.moves(progress.commitment, progress.place)]
 
     def release(self) -> None:
-        """There is no other plan: robots go on with the one that they have."""
+        """There is no new plan: robots go on with their present plan."""
         for progress in self._robots.values():
             progress.commitment = math.inf
             progress.committed_from = {}
 
     def follow(self, request: PlanRequest, answer: PlanAnswer, begin: float, now: float) -> list[str]:
-        """Goes on with the plan for the request that was committed to, which began at `begin`. What robots have done
-        since then is done in the new plan. Returns the robots that cannot stop any more before a gate of it that is
-        closed, as it was not known when they drove off. Then nothing changes: robots go on to the ends of their
-        commitments, as the gates of their old plan allow, and the new one may be followed later."""
+        """Goes on with the plan for the request that was committed to, which began at `begin`. Actions done since then
+        count as done in the new plan.
+
+        Returns the robots that can no longer stop before a closed gate of the new plan, which was not known when they
+        drove off. If there are any, nothing changes. Robots go on to the ends of their commitments, as the gates of
+        their old plan allow. The new plan may be followed later."""
         before = self._robots, self.start, self.plan
         is_followed = False
         try:
@@ -317,8 +323,8 @@ class Executor:
         return driven(gate, progress.place) - driven(progress.place, min(gate, progress.course.end))
 
     def _way_to_stop(self, robot: str) -> float:
-        """Metres that the robot drives if it is told to stop: what it needs to brake, or less where it had to stand
-        sooner anyway, as it brakes for that already."""
+        """Metres that the robot drives if it is told to stop: its braking distance. Less if it has to stand sooner
+        anyway, because it already brakes for that."""
         progress, speed = self._robots[robot], self._reported_speed(robot)
         course, place, gate = progress.course, progress.place, self._closed_at(robot)
         deceleration = self._brakes(robot, course.index(place))

@@ -17,8 +17,8 @@ from fleetplan.faults import OnFault
 from fleetplan.planning_loop import PlanningLoop, unforeseen
 from fleetplan.types import AdvanceAnswer, Hold, MeasuredPose, NewGoals, PlanAnswer, PlanOptions, PlanRequest, Plans
 
-# What a fleet needs that is planned again and again while its robots are late and a little beside their paths: slack
-# between robots in time and space, starts that may be measured too near to something, and no more than the next seconds
+# Options for a fleet that is planned again and again, while its robots are late and a little beside their paths. They
+# give slack between robots in time and space. Measured starts may be too near to something. Only the next seconds are
 # planned, so that a round of a large fleet is done in time. The options of the request have precedence.
 LOOP_OPTIONS: PlanOptions = {"time_budget_ms": 900, "horizon": 20.0, "interval_margin": 0.5, "dependency_slack": 0.02,
                              "inflation": 0.05, "execution_margin": 0.02, "start_overlap": 0.15,
@@ -44,11 +44,11 @@ class _Round:
 
 
 class FleetLoop(PlanningLoop):
-    """Plans a fleet, and plans it again while it drives. Call `step` several times per second, with what robots report,
+    """Plans a fleet, and plans it again while it drives. Call `step` several times per second with the robots' reports,
     and send them the instructions that it returns.
 
-    A round that fails (no answer, a busy server, an answer that is none) costs nothing but time: robots go on with the
-    plan that they have. A report that cannot be used costs its robot this report.
+    A round may fail: there is no answer, a busy server, or an invalid answer. This costs only time: robots go on with
+    their present plan. A report that cannot be used is ignored; its robot's other reports still count.
     """
 
     def __init__(self, client: Client, request: PlanRequest, *, period: float = 1.0, commit: float | None = None,
@@ -56,15 +56,16 @@ class FleetLoop(PlanningLoop):
                  latency: float = 0.0, change: Callable[[PlanRequest], None] | None = None,
                  pose_tolerance: float | None = None, deceleration: float | Mapping[str, float] | None = None,
                  reaction: float = 0.0, near: float = 0.01, on_fault: OnFault | None = None) -> None:
-        """`period`: seconds from plan to plan; a plan that takes longer delays the next one. `commit`: what robots do
-        within so many seconds is decided before each plan; by default, the time budget, half a second, and what the
-        way to brake takes; if the request limits accelerations, the move under way, as every commitment ends at rest.
-        `change` is called with each request before it is planned, in the thread that plans, to
-        add obstacles, zones or robots.
-        `clock`: seconds. `background`: plans are made in a thread, while robots go on; without it, `step` waits for
-        them, which simulations want; `latency` is then how long plans take on their clock, seconds.
+        """`period`: seconds from plan to plan. A plan that takes longer delays the next one. `commit`: seconds of
+        motion that are decided before each plan. The default is the time budget, half a second, and the time to brake.
+        If the request limits accelerations, the move under way is added, because every commitment ends at rest.
+
+        `change` is called with each request before it is planned, in the thread that plans, to add obstacles, zones or
+        robots. `clock`: returns seconds. `background`: plans are made in a thread, while robots go on. Without it,
+        `step` waits for them, as simulations need. Then `latency` is how long plans take on the clock, seconds.
+
         `on_fault` is called with each round that failed and each report that is not used, in the thread that has found
-        it; they are logged, too. The others are those of `Executor`."""
+        it. Faults are logged, too. The other parameters are the parameters of `Executor`."""
         super().__init__(client, request, LOOP_OPTIONS, period=period, clock=clock, background=background, change=change,
                          on_fault=on_fault)
         self.answer: PlanAnswer | None = None  # to the request
@@ -81,9 +82,9 @@ class FleetLoop(PlanningLoop):
     # ---------------------------------------------------------------- the loop
 
     def step(self, reports: Iterable[Report] = ()) -> list[Instruction]:
-        """What every robot should do now. Before the first plan, nothing: they stand.
+        """What every robot should do now. Before the first plan, nothing: robots stand.
 
-        Raises RequestRefused if the first request, or goals that were given, are at fault; then these goals are
+        Raises RequestRefused if the first request, or goals that were given, are at fault. Then these goals are
         dropped, and the loop goes on with the next call."""
         now = self._clock()
         for report in reports:
@@ -113,7 +114,7 @@ class FleetLoop(PlanningLoop):
 
     @property
     def idle(self) -> list[str]:
-        """Robots that have served all goals that they were given, and those that never had any and make way."""
+        """Robots that have served all their goals, and robots without goals that make way."""
         served = self._executor.served if self._executor is not None else []
         return [robot for robot in served if robot not in self._goals and robot not in self._given]
 
@@ -193,8 +194,8 @@ class FleetLoop(PlanningLoop):
                 self._end_round(unforeseen(error))
 
     def _take_plan(self, now: float) -> None:
-        """Goes on with the next plan if it is ready and robots can obey its gates. If they cannot yet, as another one
-        is late, they execute their commitments, for a period at most."""
+        """Goes on with the next plan if it is ready and robots can obey its gates. If they cannot yet, because another
+        robot is late, they execute their commitments, for at most a period."""
         round_ = self._round
         if round_ is None or round_.future is None or not round_.future.done():
             return

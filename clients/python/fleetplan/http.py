@@ -1,7 +1,7 @@
-"""HTTP with what a client of the service needs: connections that are kept, events as they arrive, and bounds.
+"""HTTP for a client of the service: connections that are kept, events as they arrive, and bounds.
 
-An exchange has a deadline as a whole and a largest answer, whatever the server does: it may send a byte a second, or
-without an end.
+An exchange has a deadline as a whole and a largest answer, whatever the server does. For example, it may send a byte a
+second, or send without an end.
 """
 
 import http.client
@@ -246,7 +246,8 @@ class Pool:
     """The connections to one server. Threads may share it."""
 
     def __init__(self, url: str, context: ssl.SSLContext | None = None) -> None:
-        """`context`: of https; by default, certificates are checked against those that the system trusts."""
+        """`context`: for https. By default, certificates are checked against the certificates that the system trusts.
+        """
         try:
             parts = urlsplit(url)
             self._host, self._port = parts.hostname or "", parts.port
@@ -263,8 +264,8 @@ class Pool:
         self._lock = threading.Lock()
 
     def send(self, method: str, path: str, headers: Mapping[str, str], body: bytes | None, limits: Bounds) -> Response:
-        """The server may have closed a connection that was kept; then the request is sent once more on a new one, which
-        is safe, as every request is a pure function."""
+        """The server may have closed a connection that was kept. Then the request is sent once more on a new
+        connection. This is safe, because every request is a pure function."""
         kept = self._take()
         try:
             if kept is not None:

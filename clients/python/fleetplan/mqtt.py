@@ -29,9 +29,9 @@ class MqttTransport:
                  version: str = "2.1.0", host: str = "localhost", port: int = 1883, interface: str = "uagv",
                  username: str | None = None, password: str | None = None, tls: bool = False,
                  on_fault: OnFault | None = None) -> None:
-        """`manufacturer`: or all of those of the fleet. `interface`: the first level of the topics; the version's major
-        number is the second one. `on_fault` is called with each message that is not used, in the thread of the
-        transport; they are logged, too."""
+        """`manufacturer`: of one vehicle, or of all vehicles of the fleet. `interface`: the first level of the topics;
+        the version's major number is the second level. `on_fault` is called with each message that is not used, in the
+        thread of the transport. Faults are logged, too."""
         self._take, self._version, self._faults = take, version, Faults(on_fault)
         makes = {manufacturer} if isinstance(manufacturer, str) else set(manufacturer)
         self._address, self._root = (host, port), f"{interface}/v{version.split('.')[0]}"

@@ -52,8 +52,8 @@ class PlanningLoop:
             self._threads.shutdown(cancel_futures=True)
 
     def give(self, robot: str, goals: Sequence[Goal]) -> None:
-        """Other goals than those that the robot has left, from the next round on; none to let it stand. Raises
-        InvalidValue if they cannot be written as JSON."""
+        """Replaces the goals that the robot has left, from the next round on. An empty list lets it stand. Raises
+        InvalidValue if the goals cannot be written as JSON."""
         given = list(goals)
         write_json(given)
         self._goals[robot] = given

@@ -23,8 +23,8 @@ class Misshapen(Exception):
 
 
 def check(value: object, kind: Any) -> None:
-    """Raises Misshapen unless the value is of this type. Other members of objects are not looked at, and any word is
-    taken where words are listed, as a newer service may have more of both."""
+    """Raises Misshapen unless the value is of this type. A newer service may have more members and words. So other
+    members of objects are ignored, and any word is accepted where words are listed."""
     _check_of(kind)(value)
 
 

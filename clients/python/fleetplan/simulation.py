@@ -26,7 +26,7 @@ class Leg:
 class _Robot:
     pose: Pose
     limits: Limits
-    own: bool  # whether the limits are those of the request: it brakes by itself within the room of its instruction
+    own: bool  # whether the limits come from the request: then it brakes by itself within the room of its instruction
     room: float = 0.0  # metres that are left of it
     speed: float = 0.0  # metres per second
     stands_until: float = 0.0

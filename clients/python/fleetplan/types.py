@@ -1,7 +1,8 @@
 """Requests and answers of the service, as JSON has them.
 
-The names are those of the schemas of its OpenAPI document, which `tests/python` compares with this file. They are
-dictionaries, so what the service returns is sent back without any conversion. Units: metres, seconds, radians.
+The names are the names of the schemas in the service's OpenAPI document, which `tests/python` compares with this file.
+They are dictionaries, so answers of the service can be sent back without any conversion. Units: metres, seconds,
+radians.
 """
 
 from typing import Any, Literal, NotRequired, Required, TypeAlias, TypedDict

@@ -12,9 +12,9 @@ _SAME = 1e-6  # metres, radians and seconds: rounding
 
 def put_aside(request: PlanRequest, out: Collection[str], waiting: Mapping[str, list[Goal]],
               idle: Mapping[str, Literal["stay", "yield", "return"] | None]) -> dict[str, list[Goal]]:
-    """A robot that is not available stands at the end of what it is committed to: nobody waits for it to go on. Its
-    other goals, which are returned, and those of before (`waiting`) wait until it is available again. `idle`: what
-    robots do without goals otherwise."""
+    """A robot that is not available stands at the end of its commitment, and no robot waits for it to go on. Its other
+    goals are returned. They and its earlier goals (`waiting`) wait until it is available again. `idle`: what robots do
+    without goals otherwise."""
     aside: dict[str, list[Goal]] = {}
     for robot in request["robots"]:
         name, goals = robot["id"], goals_of(robot)
@@ -56,9 +56,10 @@ def _is_place(goal: Goal, pose: Pose) -> bool:
 
 
 def serve_once(request: PlanRequest, out: Collection[str]) -> None:
-    """A plan ends with the service at the last goal: a robot that makes way after it comes back and is served again. One
-    that is committed to the whole service, which nobody can take back, gets its place as another goal behind it: that of
-    the service, or the end of its commitment if it is not available (`out`)."""
+    """Makes each robot serve its last goal once. A plan ends with the service at the last goal. A robot that makes way
+    after it comes back and would be served again. If a robot is committed to the whole service, which cannot be taken
+    back, it gets its place as another goal after it. This is the place of the service. If the robot is not available
+    (`out`), it is the end of its commitment."""
     for robot in request["robots"]:
         goals, committed = goals_of(robot), robot.get("committed", [])
         services = [action for action in committed if goals and action.get("goal") == len(goals) - 1]
@@ -70,8 +71,9 @@ def serve_once(request: PlanRequest, out: Collection[str]) -> None:
 
 
 def start_where_measured(request: PlanRequest, measured: Iterable[RobotState | VehiclePose], base: Collection[str]) -> None:
-    """A robot that has no order begins, and stands if it is committed to that, exactly where it is, not where a plan has
-    it: vehicles refuse orders that begin elsewhere. `base`: robots that have orders."""
+    """A robot without an order begins exactly where it was measured, and stands there if it is committed to that. Where
+    a plan has it does not count, because vehicles refuse orders that begin elsewhere. `base`: robots that have orders.
+    """
     poses = {entry["robot"]: entry for entry in measured}
     for robot in request["robots"]:
         pose, committed = poses.get(robot["id"]), robot.get("committed", [])

@@ -26,8 +26,9 @@ from fleetplan.types import (AdvanceAnswer, Goal, NewGoals, OrderBase, OrderProg
 from fleetplan.unavailable import put_aside, serve_once, start_where_measured, unmeasured
 from fleetplan.vehicle_states import read_state, sender_of
 
-# Those of a FleetLoop, but vehicles follow edges exactly, and may stand as near to each other as they like. For others,
-# `inflation` and `execution_margin` have to be the same, so that vehicles keep the distance that plans keep.
+# The options of a FleetLoop, except that vehicles follow edges exactly, and may stand as near to each other as they
+# like. For other vehicles, `inflation` and `execution_margin` have to be equal, so that vehicles keep the distance that
+# plans keep.
 VDA_OPTIONS: PlanOptions = LOOP_OPTIONS.copy()
 VDA_OPTIONS["inflation"] = VDA_OPTIONS["execution_margin"] = 0.0
 
@@ -67,10 +68,10 @@ class VdaLoop(PlanningLoop):
     """Plans a fleet of vehicles, and plans it again while they drive. Call `take` with each state message and `step`
     several times per second, and send the messages that it returns.
 
-    What is released of an order cannot be taken back, so a plan is made from there on, and nothing is released while
-    it is made. A round that fails costs nothing but time: vehicles go on with the plan that they have. A state that
-    cannot be read costs its vehicle this state. A vehicle that is not available gets no orders, and its goals are put
-    aside until it is.
+    The released part of an order cannot be taken back. So a plan begins at its end, and nothing is released while the
+    plan is made. A round that fails costs only time: vehicles go on with their present plan. A state message that
+    cannot be read is ignored. A vehicle that is not available gets no orders, and its goals are put aside until it is
+    available.
     """
 
     def __init__(self, client: Client, request: PlanRequest, *, manufacturer: str,
@@ -79,12 +80,13 @@ class VdaLoop(PlanningLoop):
                  map_ids: Mapping[str, str] | None = None, release_ahead: float = 5.0, period: float = 2.0,
                  wait: float = 30.0, clock: Callable[[], float] = time.monotonic, background: bool = True,
                  change: Callable[[PlanRequest], None] | None = None, on_fault: OnFault | None = None) -> None:
-        """`release_ahead`: seconds of its plan that a vehicle may go on before the next release. It bounds what a new
-        plan cannot change; vehicles stop for a moment if planning takes longer. `period`: seconds from plan to plan.
-        `wait`: seconds for which the first plan waits for vehicles that have not reported.
-        `change` is called with each request before it is planned, in the thread that plans. `on_fault` is called with
-        each round that failed, state that is not used, and vehicle that is not available, in the thread that has found
-        it; they are logged, too."""
+        """`release_ahead`: seconds of its plan that a vehicle may go on before the next release. It bounds the part
+        that a new plan cannot change. Vehicles stop for a moment if planning takes longer. `period`: seconds from plan
+        to plan. `wait`: seconds for which the first plan waits for vehicles that have not reported.
+
+        `change` is called with each request before it is planned, in the thread that plans. `on_fault` is called in the
+        thread that has found a fault: a round that failed, a state that is not used, or a vehicle that is not
+        available. Faults are logged, too."""
         super().__init__(client, request, VDA_OPTIONS, period=period, clock=clock, background=background, change=change,
                          on_fault=on_fault)
         self._header: dict[str, Any] = {"version": version, "manufacturer": manufacturer,
@@ -95,7 +97,7 @@ class VdaLoop(PlanningLoop):
                           for robot in ids}
         self._robots = {vehicle: robot for robot, vehicle in self._vehicles.items()}
         self._idle = {robot["id"]: robot.get("idle") for robot in request["robots"]}
-        self.cancelled: dict[str, str] = {}  # why orders were cancelled, by robot, until it has another one
+        self.cancelled: dict[str, str] = {}  # why orders were cancelled, by robot, until it has a new order
         self.unavailable: dict[str, str] = {}  # why vehicles are not available, by robot
         self.rounds = 0  # that have succeeded
         self._wait, self._waits_since = wait, math.inf
@@ -134,9 +136,9 @@ class VdaLoop(PlanningLoop):
         return robots[0]
 
     def step(self) -> list[Message]:
-        """The messages to send now. Before all vehicles have reported, or `wait` is over, none.
+        """The messages to send now. None before all vehicles have reported, or `wait` is over.
 
-        Raises RequestRefused if the first request, or goals that were given, are at fault; then these goals are
+        Raises RequestRefused if the first request, or goals that were given, are at fault. Then these goals are
         dropped, and the loop goes on with the next call."""
         now = self._clock()
         messages: list[Message] = []
@@ -152,8 +154,8 @@ class VdaLoop(PlanningLoop):
         return messages + self._take_plan()
 
     def cancel(self, robot: str, reason: str = "cancelled") -> list[Message]:
-        """The message that cancels the robot's order, if it has one. It gets another one when it stands, for the goals
-        that it has left: give others, or none, if it is not to go on with them."""
+        """The message that cancels the robot's order, if it has an order. When it stands, it gets a new order for the
+        goals that it has left. If it should not go on with them, give other goals, or none."""
         order = self._orders.get(robot)
         if order is None or robot in self._cancels or self._plan is None:
             return []
@@ -182,7 +184,7 @@ class VdaLoop(PlanningLoop):
         return [robot for robot, report in self._reports.items() if report["failed"]]
 
     def _have_reported(self, now: float) -> bool:
-        """Whether all vehicles have, or those that have not are not waited for any more."""
+        """Whether all vehicles have reported, or the wait for the other vehicles is over."""
         self._waits_since = min(self._waits_since, now)
         with self._lock:
             silent = self._vehicles.keys() - self._states.keys()
@@ -214,8 +216,8 @@ class VdaLoop(PlanningLoop):
         return found
 
     def _read_states(self, plan: _Plan, reported: dict[str, VdaMessage]) -> Vda5050States:
-        """What the service reads of the states. Those that it refuses are left out of `reported`, or are the ones
-        before, and told."""
+        """What the service reads in the states. States that it refuses are reported as faults. They are left out of
+        `reported`, or the previous states replace them."""
         while True:
             robots = list(reported)
             try:
@@ -265,8 +267,8 @@ class VdaLoop(PlanningLoop):
         self._set_unavailable(reasons)
 
     def _cancel_failed(self) -> list[Message]:
-        """Vehicles that cannot go on with an order, have refused it, or failed to do an action of it, get another one for
-        what is left, as soon as they can."""
+        """Vehicles may be unable to go on with an order, may refuse it, or may fail to do one of its actions. They get
+        a new order for what is left as soon as they can."""
         return [message for robot in self.failed for message in self.cancel(robot, "it has failed")]
 
     def _message(self, robot: str, topic: Literal["order", "instantActions"], body: VdaMessage) -> Message:
@@ -286,7 +288,7 @@ class VdaLoop(PlanningLoop):
         return messages
 
     def _has_taken(self, robot: str) -> bool:
-        """Its last message; one that is not available gets no orders."""
+        """Whether it has taken its last message. A vehicle that is not available gets no orders."""
         if robot not in self._cancels:
             report = self._reports.get(robot)
             return report is None or report["accepted"] or robot in self.unavailable
@@ -295,8 +297,8 @@ class VdaLoop(PlanningLoop):
         return any(action["actionId"] == self._cancels[robot] for action in actions)
 
     def _end_orders(self, plan: _Plan) -> None:
-        """Vehicles that have done all get new orders with the next plan: no order goes on for a whole day. One that
-        still knows a horizon waits for its order to be continued."""
+        """Vehicles that have done everything get new orders with the next plan, so that no order goes on for a whole
+        day. A vehicle that still knows a horizon waits for its order to be continued."""
         for robot, report in self._reports.items():
             entry = plan.progress[robot]
             waits = self._states[robot].get("nodeStates")
@@ -311,7 +313,7 @@ class VdaLoop(PlanningLoop):
         try:
             self._import(self._plan)
             exported = self._export(self._plan)
-            # A vehicle whose order was cancelled gets another one with the next plan, which begins where it stands.
+            # A vehicle whose order was cancelled gets a new order with the next plan, which begins where it stands.
             return self._published(self._plan, exported, self._orders.keys())
         except FleetplanError as error:
             self.failure = error
@@ -347,8 +349,8 @@ class VdaLoop(PlanningLoop):
         return messages
 
     def _with_nodes_before(self, robot: str, order: VdaMessage) -> VdaMessage:
-        """An update with the released nodes of the messages before it that the vehicle has not left, as far as is known:
-        it may still fail to do an action there."""
+        """An update, with the released nodes of the messages before it that the vehicle has not left, as far as is
+        known. The vehicle may still fail to do an action there."""
         before, state = self._orders.get(robot), self._imported.get(robot, {})
         if before is None or before["orderId"] != order["orderId"]:
             return order
@@ -394,7 +396,8 @@ class VdaLoop(PlanningLoop):
                 base.append(order)
         goals: list[NewGoals] = [{"robot": robot, "goals": [] if robot in out else given}
                                  for robot, given in self._given.items()]
-        # Where one that cannot go on is measured does not matter as long as it may still drive what is released.
+        # The measured position of a vehicle that cannot go on does not matter as long as the vehicle may still drive
+        # what is released.
         bound = {entry["robot"] for entry in base} & (out.keys() | self._cancels.keys())
         measured = [unmeasured(state) if state["robot"] in bound else state for state in states["states"]]
         parts: dict[str, list[Any]] = {"states": measured, "poses": states["poses"], "goals": goals}
