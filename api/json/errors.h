@@ -22,7 +22,9 @@ namespace fleetplan::api {
 /// The outcome of an operation that can fail in an expected way: either its value or its failure, two
 /// different types. Ask first:
 ///
-/// auto document = read_json(body, depth); if (!document) return report(document.failure()); use(*document);
+///   auto document = read_json(body, depth);
+///   if (!document) return report(document.failure());
+///   use(*document);
 template <typename Value, typename Failure>
 class [[nodiscard]] Result {
  public:

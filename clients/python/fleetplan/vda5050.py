@@ -84,9 +84,9 @@ class VdaLoop(PlanningLoop):
         that a new plan cannot change. Vehicles stop for a moment if planning takes longer. `period`: seconds from plan
         to plan. `wait`: seconds for which the first plan waits for vehicles that have not reported.
 
-        `change` is called with each request before it is planned, in the thread that plans. `on_fault` is called in the
-        thread that has found a fault: a round that failed, a state that is not used, or a vehicle that is not
-        available. Faults are logged, too."""
+        `change` is called with each request before it is planned, in the thread that plans. `on_fault` is called with
+        each fault, in the thread that has found it. A fault is a round that failed, a state that is not used, or a
+        vehicle that is not available. Faults are logged, too."""
         super().__init__(client, request, VDA_OPTIONS, period=period, clock=clock, background=background, change=change,
                          on_fault=on_fault)
         self._header: dict[str, Any] = {"version": version, "manufacturer": manufacturer,
