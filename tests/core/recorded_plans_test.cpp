@@ -1,5 +1,5 @@
-// Plans have the same digits whatever compiler and CPU: those of random halls are recorded. Whoever changes
-// plans on purpose records them again, from the message of this test.
+// Plans have the same digits with every compiler and CPU: the plans of random halls are recorded. If you
+// change plans on purpose, record them again, from the message of this test.
 
 #include <gtest/gtest.h>
 

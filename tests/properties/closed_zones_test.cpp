@@ -1,5 +1,5 @@
-// Random fleets with zones over some of them that nobody enters: the independent checker accepts every plan,
-// and so do samples of it; a robot alone leaves if it may.
+// Random fleets with zones over some of them that no robot enters. The independent checker accepts every
+// plan, and so do samples of it. A robot alone leaves if it may.
 
 #include <gtest/gtest.h>
 
@@ -50,7 +50,7 @@ double distance_to_closed(const Problem& problem, std::size_t robot, const Posit
   return nearest ? nearest->distance : kFar;
 }
 
-/// Ends of actions that are inside after one that is outside.
+/// The number of actions that end inside after an action that ended outside.
 int come_back(const Problem& problem, const RobotPlan& plan) {
   constexpr double kRounding = 1e-6;
   const double radius = problem.robots()[plan.robot].radius;

@@ -261,7 +261,7 @@ TEST_P(Contact, OfInflatedDisksCanBeLeftAndReached) {
   Dice dice(static_cast<std::uint64_t>(GetParam()));
   PlanOptions options;
   options.inflation = 0.05;
-  // Two robots keep twice the inflation, a robot and a wall once: all gaps are those of two robots.
+  // Two robots keep twice the inflation, a robot and a wall once. All gaps are gaps between two robots.
   const Problem problem = contact_problem(dice, 0.1 - 4.9e-7, 0.1, 0.1);
   const Plan plan = planned(problem, options);
   EXPECT_TRUE(plan.unplanned.empty()) << reasons(plan);
@@ -379,7 +379,7 @@ TEST_P(StartsInWalls, AreLeftForGood) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, StartsInWalls, testing::Range(0, 20));
 
-/// Robots on few cells, with goals and starts in walls by up to so much, metres, that come from goals before
+/// Robots on few cells, with goals and starts in walls by up to so many metres. They come from goals before
 /// and return to their starts, with loads.
 support::FleetRequest crowd_with_goals_in_walls(Dice& dice, double depth) {
   OccupancyGrid grid(9, 4, 0.5);
@@ -432,7 +432,7 @@ TEST_P(GoalsInWalls, AreEnteredAtLast) {
     options.mode = dice.chance(0.3) ? PlanOptions::Mode::anytime : PlanOptions::Mode::first;
     options.max_iterations = 5;
     const auto whole = support::problem_of(request);
-    // Those that can start together.
+    // The robots that can start together.
     while (!whole && request.robots.size() > 2 && !support::problem_of(request)) request.robots.pop_back();
     const auto problem = support::problem_of(request);
     if (!problem) continue;

@@ -1,4 +1,4 @@
-// Random plans, executed at random speeds with random stops by robots that obey the dependencies: they never
+// Random plans, executed at random speeds with random stops by robots that obey the dependencies. They never
 // collide by the checker's own formulas, except in pairs that are listed as tight, and all arrive. The same
 // executions without dependencies collide.
 

@@ -1,5 +1,5 @@
-// Fleets that are planned up to a horizon, round after round: every plan is valid and can be executed as it
-// is, and in open maps everybody arrives in the end.
+// Fleets that are planned up to a horizon, round after round. Every plan is valid and can be executed as it
+// is. In open maps, every robot arrives in the end.
 
 #include <gtest/gtest.h>
 
@@ -69,8 +69,8 @@ bool can_all_arrive(const Problem& problem, PlanOptions options) {
   return core::plan(problem, options, StopCondition::never()).unplanned.empty();
 }
 
-/// A robot is stuck only if it has as much left to do where its plan stops as where it begins, or if it is
-/// one of robots that cannot all arrive.
+/// A robot is stuck only in two cases. It has as much left to do where its plan stops as where it begins, or
+/// it is one of several robots that cannot all arrive.
 void expect_stuck_rightly(const Problem& problem, const RobotPlan& plan, const PlanOptions& options) {
   const Robot& robot = problem.robots()[plan.robot];
   const bool has_company = problem.robots().size() > 1 || !problem.obstacles().empty();
@@ -282,7 +282,7 @@ TEST_P(HorizonOfRandomFleet, LetsEverybodyArriveInMazes) {
   EXPECT_TRUE(all_arrived);
 }
 
-/// Two robots that have to change places in a corridor, and one that is not in their way.
+/// Two robots that have to change places in a corridor, and a robot that is not in their way.
 TEST(Horizon, NamesRobotsThatCannotAllArrive) {
   for (const auto replan : {PlanOptions::Replan::all, PlanOptions::Replan::where_needed}) {
     std::vector<Robot> robots{support::robot_at(2.5, 0.5).to(27.5, 0.5),

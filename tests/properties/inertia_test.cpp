@@ -1,6 +1,6 @@
-// Random fleets whose acceleration is limited: the independent checker accepts every plan, and an integration
-// in small steps, which knows only accelerations and the speeds of profiles, arrives where the plan says and
-// overlaps nobody.
+// Random fleets with limited acceleration. The independent checker accepts every plan. An integration in
+// small steps, which knows only accelerations and the speeds of profiles, arrives where the plan says and
+// overlaps no robot.
 
 #include <gtest/gtest.h>
 
@@ -205,8 +205,8 @@ Disturbance late_robots() {
   return disturbance;
 }
 
-/// Robots that are late brake at gates, stand and start again: what they have done is a motion that the same
-/// integration executes, in which nobody is overlapped and everybody arrives.
+/// Robots that are late brake at gates, stand and start again. The same integration executes their motion: no
+/// robots overlap, and all arrive.
 TEST_P(FleetWithInertia, IsExecutedByDependenciesWithinItsLimits) {
   const int seed = GetParam();
   SCOPED_TRACE(testing::Message() << "seed " << seed);

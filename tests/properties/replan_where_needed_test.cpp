@@ -41,8 +41,8 @@ CheckRules rules_of(const PlanOptions& options) {
   return rules;
 }
 
-/// The robots whose previous plans hold if all others stay where they are: of those kept, the ones that
-/// remain when robots that cross one that stays do so, too.
+/// The robots whose previous plans hold if all others stay where they are. Beginning with all kept plans,
+/// robots that cross a robot that stays do not remain.
 std::vector<bool> certain_robots(const Problem& problem, const PlanOptions& options,
                                  std::vector<bool> certain) {
   while (std::count(certain.begin(), certain.end(), true) > 0) {

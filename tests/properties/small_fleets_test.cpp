@@ -1,5 +1,5 @@
-// Small fleets where there is hardly room to pass: every maze that single steps, one robot at a time, solve
-// is solved, and so is every corridor in which two robots fit beside each other.
+// Small fleets with hardly any room to pass. Every maze that single steps, one robot at a time, solve is
+// solved. So is every corridor in which two robots fit beside each other.
 
 #include <gtest/gtest.h>
 
@@ -129,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(Members, SmallFleetWith, testing::Range<std::size_t>(0,
 /// A corridor with two robots at its ends, each on its way to the other end.
 struct Corridor {
   double radius;      // metres
-  double radii_wide;  // about: the width is that of so many cells
+  double radii_wide;  // about: the width is so many cells
   double resolution;  // metres
   double length;      // metres
   double off_middle;  // metres, of starts and goals

@@ -87,7 +87,7 @@ TEST_P(SmoothedFleet, GetsSafePlansThatAreNoWorse) {
   SCOPED_TRACE(testing::Message() << "seed " << GetParam());
   Dice dice(static_cast<std::uint64_t>(GetParam()) + 300'000);
   FleetRequest request = request_with_all(dice);
-  // Moments of plans are those of robots at constant speed.
+  // Moments of plans assume robots at constant speed.
   const bool accelerates = request.robots[0].linear_inertia().is_limited;
   for (int round = 0; round < (accelerates ? 1 : 2); ++round) {
     SCOPED_TRACE(testing::Message() << "round " << round);

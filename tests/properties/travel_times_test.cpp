@@ -1,5 +1,5 @@
-// One random robot on random maps with zones: the travel time is that of the plan that the planner makes for
-// it when it looks as long as it can, and no less than the lower bound of all plans.
+// One random robot on random maps with zones. Its travel time is the time of its plan, if the planner looks
+// as long as it can. It is no less than the lower bound of all plans.
 
 #include "core/travel/travel_times.h"
 
@@ -17,7 +17,7 @@ namespace fleetplan::core {
 namespace TEST_FILE {
 
 constexpr int kRuns = 400;
-/// Later improvement has up to 32 neighbours of a vertex, travel times those of the request.
+/// Later improvement has up to 32 neighbours of a vertex; travel times have the request's connectivity.
 constexpr int kMaxSlower = kRuns / 25;
 constexpr double kRounding = 1e-6;  // seconds
 

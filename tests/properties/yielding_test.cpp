@@ -59,7 +59,7 @@ TEST(Yielding, EveryPlanIsValidAndNobodyMovesForNothing) {
   std::vector<std::uint64_t> seeds(250);
   std::iota(seeds.begin(), seeds.end(), 0);
   seeds.push_back(1298);  // a robot that may stay where it is served, in spite of a start delay
-  seeds.push_back(1488);  // a robot makes way for one that makes way for nothing
+  seeds.push_back(1488);  // a robot makes way for a robot that makes way for nothing
   for (const std::uint64_t seed : seeds) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     Dice dice(seed);

@@ -10,8 +10,8 @@
 
 namespace fleetplan::support {
 
-/// Expects that no robot's cost is below its lower bound, and that the bounds of the plan are exactly the sum
-/// and the maximum of the robots' bounds.
+/// Expects that no robot's cost is below its lower bound. The bounds of the plan must be exactly the sum and
+/// the maximum of the robots' bounds.
 inline void expect_bounded(const core::Plan& plan) {
   core::Objectives total;
   for (const core::RobotPlan& robot : plan.plans) {

@@ -78,7 +78,7 @@ inline void expect_each_robot_once(const core::Problem& problem, const core::Pla
   EXPECT_EQ(seen.size(), problem.robots().size());
 }
 
-/// Expects that an answer has all robots and is no worse than the previous plans, if all of these hold;
+/// Expects that an answer has all robots and is no worse than the previous plans, if all of these hold.
 /// `first` returns them as they are. Returns whether they hold.
 inline bool expect_no_worse_than_previous(const core::Problem& problem, const core::PlanOptions& options,
                                           const core::Plan& plan) {

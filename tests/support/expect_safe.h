@@ -47,15 +47,15 @@ inline core::VerifyReport safety_report(const core::Problem& problem,
 }
 
 /// Expects that planned robots collide with no other robot, planned or not, no moving obstacle and not with
-/// the map, begin with their committed actions and visit their goals.
+/// the map. They must begin with their committed actions and visit their goals.
 inline void expect_safe(const core::Problem& problem, const std::vector<core::RobotPlan>& plans) {
   const core::VerifyReport report = safety_report(problem, plans);
   EXPECT_TRUE(report.valid()) << text(report);
 }
 
-/// Expects of the result of planning with `options` all that the options ask for: interval margin, added
-/// waits and the overlap of starts. Collisions that the plan lists as unavoidable are exempt; on a busy
-/// machine, finding them may be given up, and then the plan cannot be checked (see core::Plan).
+/// Expects that the result of planning meets all that `options` ask for: interval margin, added waits and the
+/// overlap of starts. Collisions that the plan lists as unavoidable are exempt. On a busy machine, finding
+/// them may be given up. Then the plan cannot be checked (see core::Plan).
 inline void expect_safe(const core::Problem& problem, const core::Plan& plan,
                         const core::PlanOptions& options) {
   if (!plan.unavoidable_known) return;
@@ -83,7 +83,7 @@ inline bool starts_too_near(const core::Problem& problem, std::size_t robot, dou
   return near;
 }
 
-/// Expects a safe plan also with radii enlarged by `inflation`, except those of robots that start too near to
+/// Expects a safe plan also with radii enlarged by `inflation`, except for robots that start too near to
 /// others.
 inline void expect_safe(const core::Problem& problem, const core::Plan& plan, double inflation = 0.0) {
   expect_safe(problem, plan.plans);

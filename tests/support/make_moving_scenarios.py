@@ -78,8 +78,8 @@ def crossing_people(_service):
 
 
 class Goals:
-    """New goals beside the shelves of the warehouse example, or between its west wall and shelves for pallets; those
-    that robots have do not overlap."""
+    """New goals beside the shelves of the warehouse example, or between its west wall and shelves for pallets. Goals of
+    robots do not overlap."""
 
     def __init__(self, request, seed):
         self.grid = Map.from_picture(request["map"]["rows"], request["map"]["resolution"])

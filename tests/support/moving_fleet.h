@@ -87,7 +87,7 @@ inline std::optional<core::Problem> problem_of(const FleetRequest& request) {
   return valid != nullptr ? std::optional<core::Problem>(std::move(*valid)) : std::nullopt;
 }
 
-/// Moves the first robot's start so near to the second one that their bare disks overlap, or into a wall.
+/// Moves the first robot's start so near to the second robot that their bare disks overlap, or into a wall.
 inline void overlap_starts(Dice& dice, FleetRequest& request) {
   if (request.robots.size() < 2) return;
   core::Robot& robot = request.robots[0];
@@ -167,7 +167,7 @@ inline void change_speeds(Dice& dice, core::Robot& robot) {
   }
 }
 
-/// Makes robots grow or shrink at some goals, where there is room for them there and at the next goal, and
+/// Makes robots grow or shrink at some goals, where there is room for them there and at the next goal. Makes
 /// some of them slower or faster.
 inline void add_loads(Dice& dice, FleetRequest& request) {
   for (core::Robot& robot : request.robots) {

@@ -36,7 +36,9 @@ class FreeCells:
         return made
 
     def half_width(self, rows):
-        """How many columns away an obstacle so many rows away is too near: the distance of cells is that of sides."""
+        """How many columns away an obstacle so many rows away is too near. The distance of cells is the distance of
+        their sides.
+        """
         apart = max(0, rows - 1) * self.floor.resolution
         across = math.sqrt(max(0.0, self.radius**2 - apart**2))
         return math.ceil(across / self.floor.resolution - 1e-9)
@@ -118,8 +120,9 @@ ROUNDS = 100  # of drawing again the places that are in the way
 
 
 class Places:
-    """Draws places for a fleet, of which none is in the way: a robot can drive from each to each of the others while
-    robots stand at all the rest. They are in one of the boxes (of cells, see buildings.py), if any are given."""
+    """Draws places for a fleet so that no place is in the way. A robot can drive from each place to each other one
+    while robots stand at all the rest. If boxes are given (of cells, see buildings.py), the places are in one of them.
+    """
 
     def __init__(self, floor, radius, seed, boxes=()):
         self.free, self.radius, self.random = FreeCells(floor, radius), radius, random.Random(seed)

@@ -44,8 +44,8 @@ inline core::OccupancyGrid random_map(Dice& dice) {
   return grid;
 }
 
-/// Returns up to `count` robots with radii of 0.1 to 3 cells, speeds over a factor of 20 and poses on and off
-/// the cell centres; some parked, some with a goal without a heading.
+/// Returns up to `count` robots with radii of 0.1 to 3 cells, speeds over a factor of 20, and poses on and
+/// off the cell centres. Some are parked, some have a goal without a heading.
 inline std::vector<core::Robot> random_robots(Dice& dice, const core::OccupancyGrid& grid, int count) {
   std::vector<core::Robot> robots;
   const auto free_place = [&](double radius, auto&& taken) -> std::optional<core::Position> {

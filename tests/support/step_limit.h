@@ -7,8 +7,8 @@
 
 namespace fleetplan::support {
 
-/// The stop conditions that have it, all asked by one thread, are met after so many questions; those that
-/// outlast the budget, which decide about the answer, after `patience` more.
+/// Stop conditions with this limit, all asked by one thread, are met after so many questions. Conditions that
+/// outlast the budget, which decide about the answer, are met after `patience` more.
 class StepLimit : public core::EarlyEnd {
  public:
   static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();

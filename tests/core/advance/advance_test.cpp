@@ -503,7 +503,7 @@ TEST(AdvancedFleet, CommitmentsKeepTheDistanceOfThePlan) {
   EXPECT_NEAR(fleet.advance(1.0)[1].committed.back().t_end, 4.1, 1e-6);
 }
 
-/// One stops where it touches another one that waits, and then goes on past it.
+/// One robot stops where it touches another robot that waits, and then goes on past it.
 TEST(AdvancedFleet, NobodyGoesOnIntoOneThatHasStoppedBesideIt) {
   const Robot waits = robot_at({{9.75, 9.75}, -3.0691895301690075}, 0.5);
   const Action wait{Type::wait, 0.0, 2.2, waits.start, waits.start};
@@ -543,8 +543,9 @@ TEST(AdvancedFleet, InflationIsUsedUpByRobotsThatAreNotWhereTheirPlansHaveThem) 
   EXPECT_GT(until(1.09), 0.5);
 }
 
-/// A moving robot cannot stop at once: one that is too near to another one already keeps half of what it has.
-/// So that robots do not creep up to each other, it keeps all of a gap of a quarter of both margins.
+/// A moving robot cannot stop at once. If it is already too near to another robot, it keeps half of the
+/// distance. So that robots do not creep up to each other, it keeps all of a gap of a quarter of both
+/// margins.
 TEST(AdvancedFleet, RobotsThatAreTooNearStopHalfWayUnlessLittleIsLeft) {
   const std::vector<std::pair<double, double>> cases{{0.1, 0.05}, {0.06, 0.02}, {0.04, 0.0}, {0.01, 0.0}};
   for (const auto& [gap, drives] : cases) {

@@ -58,7 +58,7 @@ struct DrivingFleet {
     return advanced(robots, executions, moment_of(at, commit), motions, unbounded_work());
   }
 
-  /// Those that robots cannot avoid from there on.
+  /// The collisions that robots cannot avoid from there on.
   std::vector<Collision> collisions(double at, double commit) const {
     return collisions_of_commitments(advance(at, commit), braking(at, commit), unbounded_work()).listed;
   }

@@ -45,7 +45,7 @@ Advanced advanced_in_few_steps(const DrivingFleet& fleet, const Moment& moment) 
   return {std::move(robots), std::move(collisions), !work.met()};
 }
 
-/// A robot that waits, then drives from one place to another one at this speed, and waits again, to rest.
+/// A robot that waits, drives from one place to another at this speed, and waits again, to rest.
 void add_driving(DrivingFleet& fleet, Robot robot, double wait, const Position& to, double speed,
                  double wait_after = 0.0) {
   const Position path = to - robot.start.position;
@@ -100,7 +100,7 @@ void expect_prefix(const Robot& robot) {
   }
 }
 
-/// A slow robot drives towards one that stands, so far that less than an action is too much.
+/// A slow robot drives towards a robot that stands, so far that less than an action is too much.
 TEST(MutualEnds, ACommitmentThatIsTooLongByLessThanAnActionStays) {
   for (const double wait_after : {0.0, 1.0}) {
     SCOPED_TRACE(wait_after);
@@ -118,8 +118,8 @@ TEST(MutualEnds, ACommitmentThatIsTooLongByLessThanAnActionStays) {
   }
 }
 
-/// The one ahead speeds up, but the one behind comes faster. Both stop where that one touches: then the one
-/// ahead has been slower until then, so that the one behind has to stop earlier, and so on.
+/// The robot ahead speeds up, but the robot behind comes faster. Both stop where the robot behind touches.
+/// Then the robot ahead has been slower until then, so that the robot behind has to stop earlier, and so on.
 TEST(MutualEnds, OneThatSpeedsUpAheadStopsWithTheOneBehind) {
   for (int apart = 25; apart <= 35; ++apart) {
     SCOPED_TRACE(apart);
@@ -141,8 +141,8 @@ TEST(MutualEnds, OneThatSpeedsUpAheadStopsWithTheOneBehind) {
   }
 }
 
-/// Robots that drive along one line or across it, in any order, at speeds over a factor of a hundred, some of
-/// which need time to start and to stop.
+/// Robots that drive along one line or across it, in any order, at speeds over a factor of a hundred. Some of
+/// them need time to start and to stop.
 DrivingFleet random_fleet(Dice& dice) {
   DrivingFleet fleet;
   if (dice.chance(0.3)) fleet.inflation = dice.between(0.0, 0.1);

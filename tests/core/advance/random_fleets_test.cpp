@@ -1,5 +1,5 @@
-// Random fleets in random moments of their plans, with robots that are held, late or have new goals: whatever
-// happens, nobody is committed to drive into another robot, or stands in the way of one.
+// Random fleets in random moments of their plans, with robots that are held, late or have new goals. Whatever
+// happens, no robot is committed to drive into another robot, or stands in the way of another robot.
 
 #include <gtest/gtest.h>
 
@@ -53,7 +53,8 @@ class Fleet {
     return executions;
   }
 
-  /// Something happens to some robots. Goals are those of others, so that only the way there is new.
+  /// Something happens to some robots. Goals are the goals of other robots, so that only the way there is
+  /// new.
   std::vector<Robot> at_a_later_moment(std::vector<Execution> executions) {
     Moment moment;
     moment.pose_tolerance = 1e-6;
@@ -73,7 +74,7 @@ class Fleet {
     return advanced(problem_.robots(), executions, moment, motions, stop);
   }
 
-  /// Returns whether the fleet is one that can be planned for: a late robot may be where another one is.
+  /// Returns whether the fleet can be planned for. A late robot may be where another robot is.
   bool go_on(std::vector<Robot> robots) {
     auto created = Problem::create(problem_.grid(), std::move(robots), StopCondition::never());
     if (const auto* faults = std::get_if<ProblemFaults>(&created)) {

@@ -173,7 +173,7 @@ TEST(Timeline, ActionsThatOverlapInTimeFollowEachOther) {
   expect_contiguous(remainder_of_measured(robot(), actions, at_x(3.0), *late, 3.0));
 }
 
-/// Rounding of a short action is far more than that of a long one, relative to its length.
+/// Relative to its length, the rounding of a short action is far more than the rounding of a long action.
 TEST(Timeline, ActionsThatBecomeLongerAreNoFasterThanTheRobot) {
   Robot fast = robot();
   fast.linear_speed = 1.0;

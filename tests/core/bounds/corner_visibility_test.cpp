@@ -102,8 +102,8 @@ bool has_room(const OccupancyGrid& grid, const Position& a, const Position& b) {
   return false;
 }
 
-/// Whether a taut path can continue in this direction after it bends around the corner: beside the blocked
-/// cell, neither over it nor straight away from it.
+/// Whether a taut path can continue in this direction after it bends around the corner. It must lead beside
+/// the blocked cell, neither over it nor straight away from it.
 bool can_bend_towards(const Corner& corner, const Position& d) {
   return d.x() * corner.away_x * d.y() * corner.away_y <= 0.0;
 }

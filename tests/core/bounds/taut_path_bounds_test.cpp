@@ -28,7 +28,7 @@ constexpr double kPi = std::numbers::pi;
 /// Tolerance in seconds, because TautPathSearch takes the disk slightly smaller.
 constexpr double kReduction = 1e-5;
 
-/// `cost`: that of a known plan.
+/// `cost`: the cost of a known plan.
 double bound_of(const Problem& problem, const PlanOptions& options = {}, double cost = kForever) {
   const Instance instance(problem, options, StopCondition::never());
   const TautPathBounds bounds(instance, {0}, {cost}, StopCondition::never());
@@ -211,7 +211,7 @@ OccupancyGrid blocks_and_gaps(support::Dice& dice) {
   return grid;
 }
 
-/// A robot whose radius is a multiple of half a cell, so that it just fits into gaps; poses are on multiples
+/// A robot whose radius is a multiple of half a cell, so that it just fits into gaps. Poses are on multiples
 /// of a quarter of a cell.
 std::optional<Problem> snug_problem(support::Dice& dice) {
   OccupancyGrid grid = blocks_and_gaps(dice);

@@ -110,7 +110,7 @@ TEST(MakeDependencies, ListPairsThatArePlannedNearerThanTheMargins) {
 }
 
 TEST(MakeDependencies, LeaveOutWhatOthersImply) {
-  // c crosses the lane of a and b, which follow each other at a distance: it must wait for b only, because b
+  // c crosses the lane of a and b, which follow each other at a distance. It must wait only for b, because b
   // waits for a beyond the crossing.
   const std::vector<Robot> robots{robot("a", 0, 0), robot("b", -3, 0), robot("c", 5, -5, M_PI_2)};
   const std::vector<RobotPlan> plans{PlanBuilder(0, robots[0]).translate_to(20, 0).build(),
@@ -180,7 +180,7 @@ TEST(MakeDependencies, EndSoonAfterTheirStop) {
 }
 
 TEST(MakeDependencies, AreNothingIfThereAreTooMany) {
-  // A robot follows another one for weeks, at a millimetre per second.
+  // A robot follows another robot for weeks, at a millimetre per second.
   const std::vector<Robot> robots{robot("a", 1.0002, 0), robot("b", 0, 0)};
   const std::vector<RobotPlan> plans{PlanBuilder(0, robots[0]).translate_to(2000, 0, 1e-3).build(),
                                      PlanBuilder(1, robots[1]).wait(1.0).translate_to(1998, 0, 1e-3).build()};

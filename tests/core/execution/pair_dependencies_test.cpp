@@ -59,7 +59,7 @@ TEST(ConflictRegion, IsEmptyForLinesThatOnlyTouch) {
   EXPECT_TRUE(ConflictRegion(line(0, 0, 10, 0), line(0, 1, 10, 1), 1.0 + 1e-9).second_beyond(0.0));
 }
 
-/// Compares both ranges with those of a fine raster of shares.
+/// Compares both ranges with the ranges of a fine raster of shares.
 TEST(ConflictRegion, HasTheRangesOfARaster) {
   constexpr int kSteps = 100;
   for (int seed = 0; seed < 300; ++seed) {

@@ -123,8 +123,8 @@ TEST_F(Retime, ARobotThatHasPassedItsGateGoesOn) {
   EXPECT_NEAR(found[0].delay, 8.0, 1e-9);
 }
 
-/// `a` and `b` drive 18 m each at 2 m/s, in 12 s: 2 s and 2 m to start, 4 s and 4 m to stop. `b` may not pass
-/// 9 m until `a` is at 9 m.
+/// `a` and `b` drive 18 m each at 2 m/s, in 12 s. They take 2 s and 2 m to start, 4 s and 4 m to stop. `b`
+/// may not pass 9 m until `a` is at 9 m.
 class RetimeHeavy : public testing::Test {
  protected:
   RetimeHeavy() {

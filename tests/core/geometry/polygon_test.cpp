@@ -1,4 +1,4 @@
-// Polygons of the search, and those of the checker, which compute the same in other ways.
+// Polygons of the search, and polygons of the checker, which compute the same in other ways.
 
 #include "core/geometry/polygon.h"
 

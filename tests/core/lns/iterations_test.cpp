@@ -122,7 +122,7 @@ struct LateRobots : Planning {
 };
 
 struct IterationsOfLateRobots : LateRobots {
-  /// Completes so many iterations with a search, and those that only smooth between them, without a change.
+  /// Completes so many iterations with a search, without a change. Iterations between them only smooth.
   void in_vain(int count) {
     while (count > 0) {
       Iteration iteration = iterations.choose();

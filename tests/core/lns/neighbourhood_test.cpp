@@ -13,8 +13,8 @@ using testing::ElementsAre;
 using testing::SizeIs;
 using testing::UnorderedElementsAre;
 
-/// Robot 0 passes around robot 1, which stands on its straight path; robot 2 passes near robot 0's goal;
-/// robot 3 is far from all others, and robot 4 is parked.
+/// Robot 0 passes around robot 1, which stands on its straight path. Robot 2 passes near robot 0's goal.
+/// Robot 3 is far from all others, and robot 4 is parked.
 struct Hall : Planning {
   Hall()
       : Planning(

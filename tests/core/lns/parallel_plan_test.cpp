@@ -19,7 +19,7 @@ namespace TEST_FILE {
 using Objective = PlanOptions::Objective;
 using support::robot_at;
 
-/// Sixteen robots on two circles that all cross in the middle of a hall, and one that is parked.
+/// Sixteen robots on two circles that all cross in the middle of a hall, and a parked robot.
 Problem roundabout() {
   std::vector<Robot> robots;
   for (int k = 0; k < 16; ++k) {

@@ -12,7 +12,7 @@ namespace TEST_FILE {
 using support::robot_at;
 using Objective = PlanOptions::Objective;
 
-/// Its only goal is due at 10 s and has a service of 5 s, so that it is late if its cost exceeds 15 s.
+/// Its only goal is due at 10 s and has a service of 5 s. So it is late if its cost exceeds 15 s.
 Robot heavy_and_due() {
   Robot robot = robot_at(1.0, 1.0).to(5.0, 1.0);
   robot.weight = 3.0;

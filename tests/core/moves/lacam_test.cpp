@@ -52,8 +52,8 @@ bool has_step(const StepProblem& problem, std::size_t robot, int from, int to) {
   return from == to || std::find(next.begin(), next.end(), to) != next.end();
 }
 
-/// The robot after the one that comes to where this one was, if any, and so on; whether that leads back to
-/// it. An exchange is a cycle of two.
+/// Finds the robot that comes to the place of this robot, if any, then the robot that comes to that one's
+/// place, and so on. Returns whether this leads back to the first robot. An exchange is a cycle of two.
 bool goes_round(std::size_t robot, const Configuration& from, const Configuration& to) {
   std::size_t k = robot;
   for (std::size_t count = 0; count < from.size(); ++count) {
@@ -148,7 +148,7 @@ std::vector<std::string> aisles(int columns, int rows) {
   return map;
 }
 
-/// The vertices with a way to another one.
+/// The vertices with a way to another vertex.
 std::vector<int> joined_vertices(const StepProblem::Neighbours& graph) {
   std::vector<int> vertices;
   for (std::size_t v = 0; v < graph.size(); ++v) {

@@ -72,8 +72,8 @@ Hopping random_hops(support::Dice& dice, const support::Maze& maze) {
   return hopping;
 }
 
-/// Whether moves of one robot at a time, at most one in each phase, lead to the goals, and touch neither the
-/// obstacle nor where it goes in that phase. Written for itself.
+/// Whether moves of one robot at a time, at most one in each phase, lead to the goals. They must touch
+/// neither the obstacle nor where it goes in the phase. An independent implementation.
 bool can_arrive(const support::Maze& maze, const Hopping& hopping) {
   const auto after_a_move = [&](const Cells& at) {
     std::vector<Cells> all;

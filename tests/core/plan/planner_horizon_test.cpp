@@ -52,8 +52,8 @@ Goal goal_at(double x, double y, double service = 0.0, double not_before = 0.0) 
   return {Position(x, y), std::nullopt, service, not_before};
 }
 
-/// A hall in which the way to the right leads around a long wall, so that it takes many expansions to find,
-/// and a dead end of one cell at the lower right.
+/// A hall in which the way to the right leads around a long wall, so that it takes many expansions to find. A
+/// dead end of one cell is at the lower right.
 OccupancyGrid hall_with_dead_end() {
   constexpr int kSide = 220;
   constexpr int kWall = 110;

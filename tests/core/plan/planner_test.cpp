@@ -232,7 +232,7 @@ TEST(Planner, WaitsBeforeEveryMoveWithThatOption) {
 }
 
 TEST(Planner, PlansOnAFineMapWithRobotsOfSixCells) {
-  // A room of 3 m x 2 m at 5 cm, divided by a wall with an opening of 40 cm; the robots are 30 cm wide.
+  // A room of 3 m x 2 m at 5 cm, divided by a wall with an opening of 40 cm. The robots are 30 cm wide.
   OccupancyGrid lab(60, 40, 0.05);
   for (int row = 0; row < 40; ++row) {
     if (row >= 16 && row < 24) continue;

@@ -234,8 +234,8 @@ TEST(AaSippSequence, NothingFollowsIfCommittedActionsHaveServedTheLastGoal) {
   EXPECT_EQ(planned.trajectory.cost, 4.0);
 }
 
-/// A robot alone on a random map with three goals, and the sum of the costs of single searches one after the
-/// other, without headings at the goals on the way.
+/// Compares a robot alone on a random map with three goals to single searches one after the other, by the sum
+/// of their costs. The goals on the way have no headings.
 TEST(AaSippSequence, IsHardlyEverDearerThanSearchesOneAfterTheOther) {
   int count = 0;
   int dearer = 0;

@@ -19,8 +19,8 @@ Goal load(double x, double y, double service, double radius_after) {
   return {Position(x, y), std::nullopt, service, 0.0, radius_after};
 }
 
-/// A robot of radius 0.5 m drives from (2, 10) to (8, 10), where it has `radius_after` from t = 8 on, and
-/// then to (18, 10), where it arrives at t = 18.
+/// A robot of radius 0.5 m drives from (2, 10) to (8, 10). There, it has `radius_after` from t = 8 on. Then
+/// it drives to (18, 10), where it arrives at t = 18.
 Scene carrying(double radius_after) {
   Scene scene;
   Robot robot = robot_at(2, 10);

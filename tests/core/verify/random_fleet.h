@@ -19,7 +19,7 @@ struct RandomFleet {
 };
 
 /// Robots of various sizes and speeds that drive, turn and wait at random between points of a square of
-/// `side` metres, in up to `max_actions` actions each. Some have no plan. They may collide.
+/// `side` metres. Each has up to `max_actions` actions. Some have no plan. They may collide.
 inline RandomFleet random_fleet(std::mt19937& random, std::size_t count, double side, int max_actions) {
   const auto uniform = [&random](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);

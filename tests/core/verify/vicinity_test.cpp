@@ -19,7 +19,7 @@ Robot with_vicinity(Robot robot, double vicinity) {
   return robot;
 }
 
-/// One robot of radius 0.5 m passes another one, which stands; their centres come within `distance`.
+/// One robot of radius 0.5 m passes another robot, which stands. Their centres come within `distance`.
 Scene passing(double distance, double vicinity, double other_vicinity) {
   Scene scene;
   scene.add(with_vicinity(robot_at(2, 10), vicinity), [](PlanBuilder& plan) { plan.translate_to(18, 10); });

@@ -124,9 +124,8 @@ Goal goal_at(double x, double y, double service = 0.0, double not_before = 0.0) 
   return {Position(x, y), std::nullopt, service, not_before};
 }
 
-/// A robot that drives from (2, 5) by (5, 5), where it waits from t = 3 to 5, to (9, 5), where it waits from
-/// 9 to
-/// 10. Its goals on the way are `via`.
+/// A robot that drives from (2, 5) by (5, 5) to (9, 5). It waits at (5, 5) from t = 3 to 5, and at (9, 5)
+/// from 9 to 10. Its goals on the way are `via`.
 Scene tour(std::vector<Goal> via) {
   Scene scene;
   scene.add(robot_at(2, 5),

@@ -1,5 +1,5 @@
-// Simulated executions of robots whose acceleration is limited: times and positions by hand, and the judge of
-// overlaps, which sees where they are while they start and brake.
+// Simulated executions of robots with limited acceleration: times and positions by hand. Also the judge of
+// overlaps, which sees where robots are while they start and brake.
 
 #include <gtest/gtest.h>
 
@@ -159,7 +159,7 @@ TEST(AcceleratedExecution, HasNoSliversWhereOthersAreTold) {
 
 TEST(AcceleratedExecution, TwoThatBrakeForEachOtherGoOnInTheOrderOfTime) {
   HeavyPair scene;
-  // Robot 1 brakes for 9 m until robot 0 is at 8.5 m, where it comes braking itself: it waits at 9 m until
+  // Robot 1 brakes for 9 m until robot 0 is at 8.5 m. Robot 0 brakes there as well: it waits at 9 m until
   // robot 1 is at 8.5 m, too. Both are there at 6 s, with 0.5 m to go at 0.707 m/s.
   const auto executed = scene.execute(ExecutionPolicy::dependencies, {{{1, 0, 0.5}, {0, 0, 8.5 / 18}, 0.0},
                                                                       {{0, 0, 0.5}, {1, 0, 8.5 / 18}, 0.0}});
@@ -188,8 +188,8 @@ TEST(AcceleratedExecution, RobotsWithAndWithoutLimitsWaitForEachOther) {
   scene.plans[0] =
       support::PlanBuilder(0, scene.robots[0]).translate_to(19, 1).build();  // at 2 m/s from 0 s on
   scene.disturbed[0] = undisturbed(scene.plans[0]);
-  // Robot 0 waits at 6 m, where it is at 3 s, until robot 1 is at 8 m, at 5 s; that one passes 14 m at 8 s,
-  // and begins to brake for it at 6 s and 10 m; robot 0 is at 12 m at 8 s.
+  // Robot 0 waits at 6 m, where it is at 3 s, until robot 1 is at 8 m, at 5 s. Robot 1 passes 14 m at 8 s. It
+  // begins to brake for it at 6 s and 10 m. Robot 0 is at 12 m at 8 s.
   const auto executed =
       scene.execute(ExecutionPolicy::dependencies,
                     {{{0, 0, 6.0 / 18}, {1, 0, 8.0 / 18}, 0.0}, {{1, 0, 14.0 / 18}, {0, 0, 8.0 / 18}, 0.0}});

@@ -134,7 +134,7 @@ TEST(Dependencies, AreFollowedBackAndForth) {
   const auto executed = TwoDrivers().execute(
       {{{1, 0, 0.2}, {0, 0, 0.4}, 0.0}, {{0, 0, 0.6}, {1, 0, 0.5}, 0.0}, {{1, 0, 0.8}, {0, 0, 1.0}, 0.0}},
       1.0);
-  // Robot 1 passes 2 m at 4 s and reaches 5 m at 7 s; robot 0 passes 6 m then and ends at 11 s.
+  // Robot 1 passes 2 m at 4 s and reaches 5 m at 7 s. Robot 0 passes 6 m then and ends at 11 s.
   EXPECT_NEAR(executed[0].end(), 11.0, 1e-12);
   EXPECT_NEAR(executed[1].end(), 13.0, 1e-12);
 }
