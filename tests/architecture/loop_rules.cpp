@@ -50,7 +50,7 @@ class LoopFinder {
     Kind kind;
     std::size_t begin;    // of the statement that opens it
     int open_loops = 0;   // without braces, which end with the next statement of the scope
-    bool nested = false;  // a loop of the function is inside another one
+    bool nested = false;  // a loop of the function is inside another loop
   };
 
   void word() {

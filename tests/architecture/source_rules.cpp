@@ -40,8 +40,8 @@ struct FolderRule {
 };
 
 const std::vector<Layer>& layers() {
-  // Core has no access to the environment, no output and no exit, only seeded randomness and a steady clock,
-  // so that it computes the same plan everywhere.
+  // Core has no access to the environment, no output and no exit. It has only seeded randomness and a steady
+  // clock. So it computes the same plan everywhere.
   static const std::vector<Layer> all = {
       {"core/",
        {"core/"},
@@ -115,8 +115,7 @@ const std::vector<FolderRule>& folder_rules() {
       {"core/advance/", planning, {}},
       {"core/execution/", planning, {}},
       // The checker is independent: it shares no collision test with the search, and reads the request
-      // itself:
-      // a wrong reading that it shared would be found right.
+      // itself. If it shared a wrong reading, it would accept the result as right.
       {"core/verify/", planning, {}},
       {"core/verify/",
        {"core/advance/", "core/compile/", "core/execution/", "core/geometry/disk_motion.h",
@@ -138,7 +137,7 @@ bool standard_header(string_view name) { return name.find_first_of("./") == stri
 bool identifier_character(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
 /// The text with comments, and the contents of string and character literals, blanked out. Include lines keep
-/// their names. Raw strings end at the first )", because those of the project have no delimiters.
+/// their names. Raw strings end at the first )", because the project's raw strings have no delimiters.
 std::string code_only(string_view text) {
   std::string code(text);
   const auto blank = [&](std::size_t from, std::size_t to) {
@@ -224,8 +223,8 @@ bool uses(string_view code, string_view identifier) {
   return false;
 }
 
-/// Whether the code has `Type(`, `Type{`, `Type name(` or `Type name{`, and not the parameter of a copy or of
-/// a function there, which begins with `const `.
+/// Whether the code has `Type(`, `Type{`, `Type name(` or `Type name{`. Parameters of a copy or of a
+/// function, which begin with `const `, do not count.
 bool constructs(string_view code, string_view type) {
   constexpr string_view kBlanks = " \t\r\n";
   const auto skip = [](string_view text, std::size_t to) { return text.substr(std::min(to, text.size())); };
@@ -244,8 +243,8 @@ bool constructs(string_view code, string_view type) {
   return false;
 }
 
-/// Whether a source of core or api makes a stop condition of its own, which knows nothing of the request's
-/// bounds, instead of deriving it from its Work or from another stop condition.
+/// Whether a source of core or api makes its own stop condition, which knows nothing of the request's bounds.
+/// It must derive it from its Work or from another stop condition instead.
 bool makes_a_stop_condition(string_view path, const std::string& code) {
   if (!path.starts_with("core/") && !path.starts_with("api/")) return false;
   // The examples are part of the program.
@@ -294,8 +293,9 @@ bool computes_with_a_stride(string_view code) {
   return false;
 }
 
-/// Whether a source counts the steps between two questions of a stop condition itself: by a remainder in the
-/// statement that asks, by a counter that begins again beside it, or with a constant that says how many.
+/// Whether a source counts the steps between two questions of a stop condition itself. It may do so by a
+/// remainder in the statement that asks, by a counter that begins again beside it, or with a constant that
+/// says how many.
 bool counts_between_questions(string_view path, string_view code) {
   const bool is_of_these =
       path.starts_with("core/") || path.starts_with("api/") || path.starts_with("library/");

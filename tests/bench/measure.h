@@ -14,9 +14,9 @@ struct MeasureOptions {
   bool alone = false;  // also plan each robot alone
 };
 
-/// Runs a body of POST /v1/plan in this thread as a worker of the service does (parse, plan, verify, write)
-/// and measures the wall time; then checks the written answer against the request. The budget is that of the
-/// body, `options.budget` only its limit. Returns the median of the times and the maximum of the memory.
+/// Runs a body of POST /v1/plan in this thread as a worker of the service does (parse, plan, verify, write),
+/// and measures the wall time. Then checks the written answer against the request. The budget comes from the
+/// body; `options.budget` is only its limit. Returns the median of the times and the maximum of the memory.
 Measurement measure(const std::string& name, std::size_t robots, const std::string& body,
                     const MeasureOptions& options);
 

@@ -42,8 +42,8 @@ inline constexpr int kRectangleWidth = 2;
 Recipe empty_hall();
 Recipe hall_with_rectangles();
 
-/// Disks as wide as a cell that turn almost at once, in an empty hall of 32 x 32 cells, at 1 m/s: the crowds
-/// of Yakovlev and Andreychuk (AAMAS 2018).
+/// Disks as wide as a cell that turn almost at once, in an empty hall of 32 x 32 cells, at 1 m/s. These are
+/// the crowds of Yakovlev and Andreychuk (AAMAS 2018).
 Recipe crowd();
 
 /// The paper's hall "empty" or "rects", or "crowd", with another side (cells) and number of robots, and with
@@ -56,14 +56,14 @@ struct Workload {
   std::vector<core::Robot> robots;
 };
 
-/// The workload of a seed, the same everywhere. Robots of the recipe's types follow in turn; the cells
-/// and headings of starts and goals are uniform at random. Starts do not overlap one another, nor do goals;
-/// both lie in the largest 4-connected set of cells where a disk of the robot's radius fits. If the map is
-/// too full for the next robot, the workload ends before it.
+/// The workload of a seed, the same everywhere. Robots of the recipe's types follow in turn. The cells and
+/// headings of starts and goals are uniform at random. Starts do not overlap one another, nor do goals. Both
+/// lie in the largest 4-connected set of cells where a disk of the robot's radius fits. If the map is too
+/// full for the next robot, the workload ends before it.
 Workload generate(const Recipe& recipe, std::uint64_t seed);
 
-/// The cells of the largest 4-connected set of those at whose centre a disk of `radius` metres fits; of
-/// several equally large ones the one with the lowest, leftmost cell.
+/// The largest 4-connected set of cells at whose centre a disk of `radius` metres fits. If several are
+/// equally large, the set with the lowest, leftmost cell.
 std::vector<core::Cell> largest_room(const core::OccupancyGrid& grid, double radius);
 
 }  // namespace fleetplan::bench

@@ -61,7 +61,8 @@ std::vector<Json> places_of(const Json& lines, int distance, double resolution) 
   return places;
 }
 
-/// Robots at a distance from each other. The goal of each is the start of another one, or a place further on.
+/// Robots at a distance from each other. The goal of each is the start of another robot, or a place further
+/// on.
 Json robots_of(int count, const Json& lines, double resolution, Choices& choices) {
   const std::vector<Json> places = places_of(lines, 1 + choices.up_to(20), resolution);
   const int most = static_cast<int>(places.size());
@@ -168,8 +169,8 @@ void add_tolerances(Json& robots, std::size_t first) {
   }
 }
 
-/// Goals that are served at one of the starts of robots, as many as there may be; those of all, or others
-/// each.
+/// Goals that are served at one of the starts of robots, as many as there may be. All goals have all starts,
+/// or each goal has others.
 void add_open_goals(Json& robots, Choices& choices) {
   constexpr std::size_t kMaxRobots = 190;  // with all poses within max_goals
   const std::size_t poses = std::min(robots.size(), 2 + static_cast<std::size_t>(choices.up_to(98)));

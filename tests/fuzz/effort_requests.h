@@ -43,7 +43,7 @@ using Endpoint = api::Reply (*)(std::string_view body, const api::RequestContext
 /// A valid request with members at the ends of their ranges, and what it is granted.
 struct Effort {
   Endpoint endpoint = nullptr;
-  bool plans = false;  // the answer is that of POST /v1/plan
+  bool plans = false;  // the answer is an answer of POST /v1/plan
   std::string body;
   std::size_t robots = 0;
   std::int64_t steps = 0;  // questions of stop conditions until the time is up

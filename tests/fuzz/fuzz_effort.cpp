@@ -1,11 +1,11 @@
-// Requests of all endpoints at the ends of their ranges, with small budgets of steps and memory. However
-// little there is of them, the answer is a verified plan or what was asked for, or a well-formed rejection,
-// and it comes soon after the budget is spent.
+// Requests of all endpoints at the ends of their ranges, with small budgets of steps and memory. The answer
+// comes soon after the budget is spent, however small it is. It is a verified plan, or what was asked for, or
+// a well-formed rejection.
 //
-// Time is counted, not measured, so that the same requests fail on every machine: by the questions that stop
-// conditions are asked, and in builds with the preset `count` by basic blocks of the program, of which a
-// machine executes some hundred million in a second. There, the blocks between two questions are bounded: so
-// is every loop, whether somebody thought of it or not.
+// Time is counted, not measured, so that the same requests fail on every machine. The questions to stop
+// conditions are counted. In builds with the preset `count`, basic blocks of the program are counted as well;
+// a machine executes some hundred million in a second. There, the blocks between two questions are bounded.
+// So every loop is bounded, whether somebody thought of it or not.
 
 #include <cstdio>
 #include <cstdlib>

@@ -1,5 +1,5 @@
-// Files of PNG chunks in any order: what the reader makes of them does not depend on what was in the memory
-// that it allocates, and valid ones have their pixels. The first byte selects a valid file or any.
+// Files of PNG chunks in any order. The reader's result does not depend on what was in the memory that it
+// allocates, and valid files have their pixels. The first byte selects a valid file or any.
 
 #include <array>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// Any text as the body of POST /v1/matrix and POST /v1/assign: it is refused properly, or the matrix is
+// Any text as the body of POST /v1/matrix and POST /v1/assign. It is refused properly, or the matrix is
 // whole, or the answer can be read as a request to plan.
 
 #include <nlohmann/json.hpp>
@@ -44,7 +44,7 @@ void try_matrix(std::string_view body) {
   }
 }
 
-/// The tasks may have goals that overlap those of other robots, so that the request may have faults.
+/// The tasks may have goals that overlap goals of other robots, so that the request may have faults.
 void try_assign(std::string_view body) {
   const api::Reply reply = api::assign_endpoint(body, context());
   if (reply.status != 200) return require_proper_refusal(body, reply);

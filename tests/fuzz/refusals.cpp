@@ -65,7 +65,7 @@ class RepeatedKeys : public nlohmann::json_sax<Json> {
   std::vector<std::set<std::string>> keys_;  // of the objects around the place
 };
 
-/// The same, if the fault that says so is one of those that are not listed.
+/// The same, if the fault that says so is not listed.
 bool has_repeated_key(std::string_view body) {
   RepeatedKeys keys;
   Json::sax_parse(body, &keys);

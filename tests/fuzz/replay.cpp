@@ -1,4 +1,4 @@
-// Runs targets in builds without libFuzzer. PROGRAM is fuzz_replay, or that of one target:
+// Runs targets in builds without libFuzzer. PROGRAM is fuzz_replay, or the program of one target:
 //
 //   PROGRAM TARGET FOLDER...              every file of the folders, so that inputs found once remain tests
 //   PROGRAM TARGET --random SEED RUNS     so many random inputs; the same for a seed

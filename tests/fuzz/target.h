@@ -25,7 +25,7 @@ inline std::map<std::string, Run>& targets() {
   return all;
 }
 
-/// Every source of a target defines one, which adds the target to those of the program.
+/// Every source of a target defines a Target, which adds itself to the program's targets.
 struct Target {
   Target(const char* name, Run run) { targets()[name] = run; }
 };

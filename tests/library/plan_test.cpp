@@ -42,7 +42,7 @@ TEST(PublicPlan, IsTheSameAtAnyOrigin) {
   EXPECT_NEAR(end.y, -499.5, 1e-9);
 }
 
-/// A robot without goals stands in the corridor beside the passing bay, and another one has to pass.
+/// A robot without goals stands in the corridor beside the passing bay, and another robot has to pass.
 Problem one_in_the_way(Robot::Idle idle) {
   Problem problem = corridor_swap();
   problem.robots[1].start = {5.5, 0.5, 0.0};

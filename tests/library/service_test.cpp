@@ -53,7 +53,7 @@ Json comparable(const std::string& body) {
   return answer;
 }
 
-/// Sends a body to the library and to the service, and returns the answer, which must be that of both.
+/// Sends a body to the library and to the service, and returns the answer. Both must give the same answer.
 Json same_answer(const std::string& path, const std::string& body, int status = 200) {
   const Pair& pair = endpoints().at(path);
   api::RequestContext context;

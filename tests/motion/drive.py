@@ -1,16 +1,23 @@
 #!/usr/bin/env python3
-"""Drives robots for a simulated time by the loop of docs/fleet_loop.md against a real server, and replays what they
-have executed by a reading of the contract of its own.
+"""Drives robots for a simulated time by the loop of docs/fleet_loop.md against a real server. Replays what they have
+executed by its own reading of the contract.
 
   drive.py --binary build/release/server/fleetplan --robots 40 --seconds 3600 --commit 1 --holds 60
   drive.py --url http://localhost:8080 --robots 12 --seconds 60
 
-Each period, every robot executes its plan; who has served its last goal gets new random ones; and the fleet is planned
-again. With --holds N, robots are held for 30 s at N random moments. With --late N, robots fall behind by less than
---margin seconds (options.interval_margin), and leave their paths by up to --noise metres, which their measured poses
-tell. With --obstacles N, people walk across the map. --options has further options of the requests.
-Exit status 1 if a request was not answered within its budget, a robot was stranded, disks overlapped, or an answer
-contradicts its request. Random choices depend on --seed only. Python standard library only.
+Each period, every robot executes its plan, robots that have served their last goals get new random goals, and the fleet
+is planned again. With --holds N, robots are held for 30 s at N random moments. With --late N, robots fall behind by
+less than --margin seconds (options.interval_margin). They also leave their paths by up to --noise metres, which their
+measured poses tell. With --obstacles N, people walk across the map. --options has further options of the requests.
+
+The exit status is 1 if
+
+- a request was not answered within its budget,
+- a robot was stranded,
+- disks overlapped,
+- or an answer contradicts its request.
+
+Random choices depend only on --seed. Python standard library only.
 """
 
 import argparse
@@ -40,7 +47,7 @@ class Refused(Exception):
 
 
 class Service:
-    """A server of this test, or one that runs already."""
+    """A server of this test, or a server that runs already."""
 
     def __init__(self, binary=None, url=None):
         self.process, self.url = None, url
@@ -89,7 +96,7 @@ class Places:
         return all(math.hypot(x - tx, y - ty) > 2 * self.radius + 0.02 for tx, ty in taken)
 
     def goals(self, taken):
-        """Some goals on the way, with services, and a last one that is clear of the places taken."""
+        """Some goals on the way, with services, and a last goal that is clear of the places taken."""
         way = [{"x": x, "y": y, "service": round(self.rng.uniform(0.0, 4.0), 3)}
                for x, y in self.rng.sample(self.all, self.rng.choice((0, 0, 1, 2)))]
         for _ in range(1000):
@@ -243,7 +250,7 @@ class Drive:
         return given
 
     def new_holds(self, answer):
-        """The holds that go on, and those that begin."""
+        """The holds that go on, and the holds that begin."""
         now = self.replay.now
         while self.hold_times and self.hold_times[0] <= now:
             self.hold_times.pop(0)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs the client of docs/execution.md against a server of this build, many times with random delays, and replays what its
+"""Runs the client of docs/execution.md against a server of this build, many times with random delays. Replays what its
 robots have done: no disks overlap with dependencies, and some do without.
 
 FLEETPLAN_RUNS is the number of executions (default 30).

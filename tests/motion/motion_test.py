@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs the loop of docs/fleet_loop.md for its hundred rounds and a short drive, against a server of this build; and
+"""Runs the loop of docs/fleet_loop.md for its hundred rounds and a short drive, against a server of this build. Also
 tests the replay that judges drives.
 
 Usage: motion_test.py FLEETPLAN_BINARY [unittest arguments]
@@ -78,7 +78,7 @@ class Loops(unittest.TestCase):
 
 @contextlib.contextmanager
 def spoiling(service, path, first, answers):
-    """The URL of a proxy, which answers some requests of this path, from a number on, in this way: a status and a body,
+    """The URL of a proxy that answers some requests of this path, from a number on, in this way: a status and a body,
     or None to break off."""
     left, count = list(answers), [0]
 

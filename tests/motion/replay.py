@@ -1,5 +1,6 @@
-"""Replays what robots have executed, and judges it by the contract of docs/api.md: no two disks overlap, none overlaps
-a wall, nobody jumps or is faster than it can, every goal is served. In continuous time, between the events exactly."""
+"""Replays what robots have executed, and judges it by the contract of docs/api.md. No two disks overlap, no disk
+overlaps a wall, no robot jumps or is faster than it can, and every goal is served. In continuous time, and exact
+between the events."""
 
 import collections
 import math

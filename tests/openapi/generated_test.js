@@ -75,9 +75,9 @@ const BEYOND_SCHEMA = {
     "(/robots/\\d+/goal(s/\\d+)?|/(goals|tasks)/\\d+/goals/\\d+)/service", // of actions
   ),
   wrong_type: /^\/dependencies$/, // null, with the policy that needs them
-  unknown_value: /^\/progress\/\d+\/order_id$/, // of another order than that of base
-  // `goal` of an action that is no wait, `reverse` of one that is no translation; serial number of no robot; what is
-  // left of no service
+  unknown_value: /^\/progress\/\d+\/order_id$/, // of an order that differs from the order of base
+  // `goal` of an action that is no wait; `reverse` of an action that is no translation; serial number of no robot; what
+  // is left of no service
   unknown_key:
     /\/((committed|previous|actions)\/\d+\/(goal|reverse|profile)|(serial_numbers|map_ids|manufacturers)\/[^/]*|states\/\d+\/service_left)$/,
   unknown_obstacle: /^\/unavoidable\/\d+\/obstacle$/,
@@ -112,8 +112,8 @@ const executions = new Executions(
 );
 
 /**
- * Of each endpoint: the schema of its requests; requests of every possible kind; requests that it has to accept,
- * where they differ from these; what else an answer 200 has to fulfil, and one to a request that it has to accept.
+ * For each endpoint: the schema of its requests; requests of every possible kind; requests that it has to accept, if
+ * they differ from these. Also the conditions for an answer 200, and for an answer to a request that it has to accept.
  */
 const KINDS = {
   "/v1/plan": {
@@ -216,7 +216,7 @@ function lastOf(events) {
   return data;
 }
 
-/** The request of a later moment is one that can be planned, unless its budget is spent before. */
+/** The request of a later moment can be planned, unless its budget is spent before. */
 async function expectPlannable({ body }) {
   const { status, json } = await client.post("/v1/plan", body);
   if (!UNFINISHED[json.code]?.includes("/v1/plan"))

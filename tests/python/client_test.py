@@ -1,4 +1,4 @@
-"""The client against a server of this build, and against one that answers as no other would."""
+"""The client against a server of this build, and against a server with answers that no real server gives."""
 
 import json
 import time

@@ -1,5 +1,5 @@
-"""A day in a warehouse, in short: fleets of the loop of the client serve every goal in the end, whatever happens to them,
-nobody is met, and every request is accepted. tests/bench/day has the whole day."""
+"""A day in a warehouse, in short. Fleets of the loop of the client serve every goal in the end, whatever happens to
+them. No robot is met, and every request is accepted. tests/bench/day has the whole day."""
 
 import sys
 import unittest

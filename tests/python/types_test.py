@@ -1,4 +1,4 @@
-"""The types of the client and the parameters of its methods are those of the OpenAPI document."""
+"""The types of the client and the parameters of its methods agree with the OpenAPI document."""
 
 import inspect
 import json
@@ -14,8 +14,8 @@ from fleetplan import Client
 DOCUMENT = json.loads((PROJECT / "api/openapi.json").read_text())
 SCHEMAS = DOCUMENT["components"]["schemas"]
 
-# Schemas that have a type of the same name are found by it. These have another one, since the answer of the service and
-# what it is given are the same type here, or only part of one.
+# Schemas with a type of the same name are found by it. These have another type. Either the answer of the service and
+# its input have the same type here, or the type is only part of one.
 OTHER_NAMES = {"GivenAction": "Action", "GivenMotion": "Action", "GivenPose": "Pose"}
 # Members of answers that requests may have, so that answers can be sent back.
 OF_ADVANCE = {"progress", "unavoidable", "unavoidable_total"}

@@ -21,7 +21,7 @@ class Answer:
 class Connection:
     """One connection, opened when needed and again after the server has closed it."""
 
-    # The server closes idle connections after a second, so one that was used more recently is still open.
+    # The server closes idle connections after a second. So a connection that was used more recently is still open.
     MAX_IDLE_S = 0.5
 
     def __init__(self, host, port, timeout=90.0, source=None):

@@ -1,5 +1,5 @@
-"""Valid and invalid requests that cost a server much more than they cost the client: each gets the right answer within its
-time and its memory. `measure` sends each of them to a server of its own."""
+"""Valid and invalid requests that cost a server much more than they cost the client. Each gets the right answer within
+its time and its memory. `measure` sends each of them to a separate server."""
 
 import base64
 import dataclasses
@@ -124,7 +124,9 @@ def crowd_with_long_ids():
 
 
 def blocked_door():
-    """A robot is parked in the only door of the room of the goal, far from the start in a hall of 600 x 600 cells."""
+    """A robot is parked in the only door of the room with the goal. The goal is far from the start, in a hall of 600 x
+    600 cells.
+    """
     rows = ["." * 600 for _ in range(600)]
     for row in range(10):
         rows[row] = "." * 590 + ("D" if row == 5 else "#") + "." * 9
@@ -323,7 +325,7 @@ def report_of_many_actions(count):
 
 
 def many_places(count, **more):
-    """Poses all over a map of a million cells with a comb of walls, from each of which there is a way to each other one."""
+    """Poses all over a map of a million cells with a comb of walls. Each pose has a way to each other pose."""
     rows = ["." * 1000 if row % 4 else "#" * 999 + "." if row % 8 else "." + "#" * 999 for row in range(1000)]
     places = [{"x": 0.5 + 37 * k % 997, "y": 4 * (61 * k % 249) + 1.5} for k in range(count)]
     return {"map": {"rows": rows}, "options": {"time_budget_ms": 1000}, **more}, places

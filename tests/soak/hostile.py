@@ -3,12 +3,17 @@
 
 Usage: hostile.py [--binary FLEETPLAN | --url URL] [--seconds N] [--late-ms N]
 
-Measures small plans of one honest client alone, then beside each kind of hostile client in turn, while probing health on
-the admin port (not with --url). The exit status is 1 if an honest answer was wrong, lost or, in the median, more than
-twice as slow as alone and slower than 25 ms, if too many were rejected with 503, if a health probe failed, or if the server ended or used more
-than 1 GiB. Then sends requests that are costly for the server: each must get the right answer, within its time and its
-memory, and no work may go on after the client has left. Last, checks that servers survive a log that nobody reads and a
-lack of descriptors, and that one whose listener breaks ends.
+Measures small plans of one honest client alone, then beside each kind of hostile client in turn. Meanwhile, probes
+health on the admin port (not with --url). The exit status is 1 if
+
+- an honest answer was wrong, lost or, in the median, more than twice as slow as alone and slower than 25 ms,
+- too many requests were rejected with 503,
+- a health probe failed,
+- or the server ended or used more than 1 GiB.
+
+Then sends requests that are costly for the server. Each must get the right answer, within its time and its memory. No
+work may go on after the client has left. Last, checks that servers survive a log that nobody reads and a lack of
+descriptors, and that a server whose listener breaks ends.
 """
 
 import argparse
@@ -162,7 +167,7 @@ def send_and_leave(data):
 
 
 def never_read(data):
-    """Requests large answers and reads none of them."""
+    """Requests large answers and reads nothing of them."""
     def act(socket_):
         socket_.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
         for _ in range(50):

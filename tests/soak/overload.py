@@ -4,9 +4,12 @@
 Usage: overload.py [--binary FLEETPLAN | --url URL] [--seconds N] [--times N]
 
 Measures how many plans per second the server returns, sends four times as many for a minute at a steady rate, and then
-measures how it recovers. The exit status is 1 if an answer was wrong or lost, if an accepted request exceeded its budget,
-if a rejection took 50 ms (the 99th percentile) or had no Retry-After, or if the server did not return to its usual latency
-at once.
+measures how it recovers. The exit status is 1 if
+
+- an answer was wrong or lost,
+- an accepted request exceeded its budget,
+- a rejection took 50 ms (the 99th percentile) or had no Retry-After,
+- or the server did not return to its usual latency at once.
 
 Then the cases of fair.py: clients that compete for the workers.
 """

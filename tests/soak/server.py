@@ -1,4 +1,4 @@
-"""The server under test: a child process, or one that is already running."""
+"""The server under test: a child process, or a server that is already running."""
 
 import json
 import os

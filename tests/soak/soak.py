@@ -3,9 +3,14 @@
 
 Usage: soak.py [--binary FLEETPLAN | --url URL] [--minutes N] [--costly]
 
-Prints a table. The exit status is 1 if an answer was wrong or lost, if the server ended, or if its resident memory grew by
-more than 5 % after the first minute. Memory is measured in a pause of all clients after each round of a minute, without
-the maps that are kept for later requests: which ones those are, up to --map-cache, depends on the last requests.
+Prints a table. The exit status is 1 if
+
+- an answer was wrong or lost,
+- the server ended,
+- or its resident memory grew by more than 5 % after the first minute.
+
+Memory is measured in a pause of all clients after each round of a minute. Maps that are kept for later requests do not
+count, because they depend on the last requests, up to --map-cache.
 """
 
 import argparse

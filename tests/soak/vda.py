@@ -1,17 +1,22 @@
 #!/usr/bin/env python3
-"""Runs the loop for vehicles of VDA 5050 (clients/python) with vehicles that refuse orders, fail actions, restart, are
-stopped and pushed by hand, lose their place, and send messages that nobody can read, and with a server whose answers are
-now and then lost or wrong. Their time is simulated.
+"""Runs the loop for vehicles of VDA 5050 (clients/python). Vehicles refuse orders, fail actions, restart, are stopped
+and pushed by hand, lose their place, and send messages that nobody can read. Answers of the server are now and then
+lost or wrong. The vehicles' time is simulated.
 
 Usage: vda.py [--binary FLEETPLAN | --url URL] [--minutes N | --seconds N] [--robots N] [--version 2.1.0 | 3.0.0]
               [--seed N]
 
---minutes are those of this machine, --seconds those of the vehicles, for each version: the same on every machine.
+--minutes are minutes of this machine. --seconds are seconds of the vehicles, for each version: the same on every
+machine.
 
-Prints what it did, with a digest: two runs in which the same happened have the same. The exit status is 1 unless each
-mission was served exactly once in the end, the ways that are released to vehicles never came too near to each other,
-nobody was met but by a vehicle that was pushed, no vehicle stood for long without a reason, and nothing but
-FleetplanError was raised.
+Prints what it did, with a digest. Two runs in which the same happened have the same digest. The exit status is 0 only
+if
+
+- each mission was served exactly once in the end,
+- the ways that are released to vehicles never came too near to each other,
+- only a vehicle that was pushed met another vehicle,
+- no vehicle stood for long without a reason,
+- and only FleetplanError was raised.
 """
 
 import argparse
@@ -259,7 +264,9 @@ class Soak:
             vehicle.push = x, y, 12
 
     def is_free(self, vehicle, x, y, met):
-        """Whether nobody is in the way, or will be by what is released now; those that it has met, at its end."""
+        """Whether no vehicle is in the way, or will be by what is released now. Vehicles that it has met count at its
+        end.
+        """
         way = [(vehicle.pose["x"], vehicle.pose["y"]), (x, y)]
         return self.walls.clearance(*way[0], *way[1], vehicle.radius) >= vehicle.radius and all(
             apart([(x, y)] if other in met else way, released_to(other)) >= vehicle.radius + other.radius + 0.1

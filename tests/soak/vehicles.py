@@ -1,4 +1,4 @@
-"""Vehicles that speak VDA 5050 and do what vehicles do in the field: they refuse orders, fail actions, restart, are
+"""Vehicles that speak VDA 5050 and behave like vehicles in the field. They refuse orders, fail actions, restart, are
 pushed by hand, lose their place, and send messages that nobody can read."""
 
 import json

@@ -1,5 +1,5 @@
-// A foreign client's vehicles drive the plan of the warehouse over MQTT: vda-5050-lib, which speaks VDA 5050 up to 2.0
-// and judges every message by that version's schema.
+// A foreign client's vehicles drive the plan of the warehouse over MQTT. The client is vda-5050-lib, which speaks VDA
+// 5050 up to 2.0 and judges every message by this version's schema.
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
@@ -14,7 +14,7 @@ import { leastGapOfAll } from "./support/replay.js";
 import { startVehicle } from "./support/vehicle.js";
 
 const MANUFACTURER = "fleetplan";
-const TOLERANCE = 2e-6; // metres: that of plans and dependencies, and rounding
+const TOLERANCE = 2e-6; // metres: the tolerance of plans and dependencies, and rounding
 const TIME_LAPSE = 20;
 const LONGEST_MS = 180_000;
 

@@ -1,6 +1,6 @@
-// A foreign client's vehicles are planned again and again while they drive, by the loop of the Python client over MQTT:
-// vda-5050-lib, which judges every message by the schema of VDA 5050 2.0, and every order by the rules for continuing
-// one. One vehicle fails on the way, and the order of one is cancelled.
+// A foreign client's vehicles are planned again and again while they drive, by the loop of the Python client over MQTT.
+// The client is vda-5050-lib. It judges every message by the schema of VDA 5050 2.0, and every order by the rules for
+// continuing an order. One vehicle fails on the way. The order of another is cancelled.
 //
 // LIVE_VEHICLES (at most 40), LIVE_SECONDS (simulated) and LIVE_LAPSE make it a long day.
 
@@ -20,7 +20,7 @@ const VEHICLES = Number(process.env.LIVE_VEHICLES ?? 8);
 const SECONDS = Number(process.env.LIVE_SECONDS ?? 120);
 const LAPSE = Number(process.env.LIVE_LAPSE ?? 15);
 const MANUFACTURER = "fleetplan";
-const TOLERANCE = 2e-6; // metres: that of plans and dependencies, and rounding
+const TOLERANCE = 2e-6; // metres: the tolerance of plans and dependencies, and rounding
 const BROKEN = 0;
 const CANCELLED = 1;
 

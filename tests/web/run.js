@@ -1,6 +1,6 @@
 // Runs `node --test` with these arguments, on all test files if none is named. Starting a process, and Chromium in it,
-// takes longer than most tests, so the files of browser/ and of unit/ are run in batches: a process each, which runs file
-// after file.
+// takes longer than most tests. So the files of browser/ and of unit/ are run in batches: a process each, which runs
+// file after file.
 
 import { spawn } from "node:child_process";
 import { once } from "node:events";
@@ -10,7 +10,7 @@ import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 
 const AT_ONCE = availableParallelism() + 1; // processes, as tests wait for frames
-const BATCHES = 2 * AT_ONCE; // so that a process that is done early takes another one
+const BATCHES = 2 * AT_ONCE; // so that a process that is done early takes another batch
 
 async function testFiles(folder) {
   const names = await readdir(folder);

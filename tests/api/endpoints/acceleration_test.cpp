@@ -1,5 +1,5 @@
-// Robots whose acceleration is limited, at the endpoints: their plans have profiles, which are checked,
-// accepted as commitments, and end at rest where /v1/advance cuts them.
+// Robots with limited acceleration, at the endpoints. Their plans have profiles, which are checked and
+// accepted as commitments. They end at rest where /v1/advance cuts them.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -71,7 +71,7 @@ TEST(Accelerations, AreFaultsOutsideOfTheirRanges) {
                                               {"/robots/1/angular_acceleration", "out_of_range"}}));
 }
 
-/// The robot picks a load up at the end of the corridor, and takes it back, backwards: it is at 0.5 m/s after
+/// The robot picks a load up at the end of the corridor, and takes it back, backwards. It is at 0.5 m/s after
 /// 0.5 m, and stops in as much.
 Json haul() {
   Json request = corridor();
@@ -90,7 +90,8 @@ TEST(LoadedRobots, DriveAsTheirLoadsAllow) {
   ASSERT_EQ(actions.size(), 3U);
   EXPECT_EQ(actions[0]["profile"]["cruise"], 2.0);
   EXPECT_EQ(actions[2]["profile"]["cruise"], 0.5);
-  // 12 s there, the service, and 18 m at 0.5 m/s with half of the 2 s and 2 s in which it starts and stops.
+  // 12 s there, the service, and 18 m at 0.5 m/s. Starting and stopping take 2 s each, half of it in
+  // addition.
   EXPECT_NEAR(actions[2]["t_end"], 12.0 + 2.0 + 36.0 + 1.0 + 1.0, 1e-9);
   EXPECT_EQ(answer["lower_bound"]["flowtime"], answer["flowtime"]);
   EXPECT_EQ(answer["verified"], true);

@@ -1,4 +1,4 @@
-// Requests with members of all kinds that are damaged at one place, whichever it is, to every endpoint: each
+// Requests with members of all kinds that are damaged at one place, wherever it is, to every endpoint. Each
 // is served, or refused with its faults.
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
-// Budgets that end at every moment. Each endpoint gets a small request with all members together, and time
-// ends after the n-th question of a stop condition, for every n until the answer is whole: it is never a 500,
-// and comes soon.
+// Budgets that end at every moment. Each endpoint gets a small request with all members together. Time ends
+// after the n-th question of a stop condition, for every n until the answer is whole. The answer is never a
+// 500, and comes soon.
 
 #include <gtest/gtest.h>
 
@@ -138,8 +138,8 @@ void expect_answer(const Reply& reply) {
 
 /// Questions after the last one of the time: each loop ends, and each robot may be asked about a few times.
 constexpr std::int64_t kMaxLate = 200;
-/// The checks of previous plans and of the answer outlast the budget of a plan by so many questions at most;
-/// here they may take as many as they like.
+/// The checks of previous plans and of the answer outlast the budget of a plan by at most so many questions.
+/// Here, they may take as many as they like.
 constexpr std::int64_t kMaxOfChecks = 2000;
 constexpr std::int64_t kPatience = 1'000'000;
 

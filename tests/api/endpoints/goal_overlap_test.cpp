@@ -17,7 +17,7 @@ using ::testing::Not;
 
 constexpr double kDown = -1.5707963267948966;
 
-/// A hall of 6 x 3 m; robots have a radius of 0.3 m, and docks are at its lower wall: at y = 0.25 their disks
+/// A hall of 6 x 3 m. Robots have a radius of 0.3 m. Docks are at its lower wall: at y = 0.25, their disks
 /// are 0.05 m in it.
 Json hall() {
   return Json::parse(R"({

@@ -1,7 +1,7 @@
-// Random well-formed fleets in the loop of docs/fleet_loop.md, with a horizon: every goal is served within a
-// number of rounds, whatever robots are held, late or beside their paths, and there is no number of rounds in
-// which nobody serves a goal. Well-formed: each robot has a way between any two of its places past all other
-// robots that stand at theirs.
+// Random well-formed fleets in the loop of docs/fleet_loop.md, with a horizon. Every goal is served within a
+// number of rounds, whatever robots are held, late or beside their paths. There is no number of rounds in
+// which no robot serves a goal. Well-formed: each robot has a way between any two of its places past all
+// other robots that stand at theirs.
 //
 // FLEETPLAN_ROUNDS is how often they are planned in all, FLEETPLAN_FIRST_LIFE the seed of the first fleet.
 
@@ -31,10 +31,10 @@ using support::Dice;
 constexpr int kRoundsOfALife = 150;
 /// A service, a hold, and rounds in which a goal is given.
 constexpr double kFewRounds = 10.0;
-/// Searches that are longer by far than those of these fleets.
+/// Far more than the searches of these fleets need.
 constexpr std::int64_t kPlenty = 200'000;
 
-/// The cells of a map that are free for ways, and those of robots.
+/// The cells of a map that are free for ways, and the cells of robots.
 class Floor {
  public:
   Floor(Dice& dice, OccupancyGrid grid) : grid_(std::move(grid)), is_road_(count(), 0) {

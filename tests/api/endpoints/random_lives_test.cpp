@@ -1,8 +1,11 @@
-// Random lives of fleets: plan, go on to a random moment in which robots are held, late, early or beside
-// their paths, measured or reported, and plan again, with all members of requests together. Whatever happens,
-// no request is answered by `internal_error`; /v1/plan accepts what /v1/advance returns; and robots that
-// execute nothing but their commitments and then stand meet nobody, unless they overlap already or cannot
-// stop in time, and are named.
+// Random lives of fleets: plan, go on to a random moment, and plan again, with all members of requests
+// together. At the moment, robots are held, late, early or beside their paths, measured or reported. Whatever
+// happens:
+//
+// - No request is answered by `internal_error`.
+// - /v1/plan accepts what /v1/advance returns.
+// - Robots that execute only their commitments and then stand meet no other robot. Exceptions are robots that
+//   overlap already or cannot stop in time; these are named.
 //
 // FLEETPLAN_ROUNDS is how often they are planned in all, FLEETPLAN_FIRST_LIFE the seed of the first fleet.
 
@@ -40,7 +43,7 @@ constexpr int kRoundsOfALife = 5;
 
 using Pair = std::pair<std::string, std::string>;  // ids, in the order of the request
 
-/// Those that overlap already, or cannot stop in time.
+/// Robots that overlap already, or cannot stop in time.
 std::set<Pair> named_pairs(const Json& request) {
   std::set<Pair> named;
   for (const Json& meeting : request.value("unavoidable", Json::array())) {
@@ -84,7 +87,8 @@ const Json* state_of(const Json& body, const Json& robot) {
   return nullptr;
 }
 
-/// Exactly the robots that overlap at the moment are named, and some of those that need some way to stop.
+/// Exactly the robots that overlap at the moment are named, and some of the robots that need some way to
+/// stop.
 void expect_that_the_overlapping_are_named(const Json& request, const core::Problem& problem,
                                            const Json& body) {
   const std::set<Pair> named = named_pairs(request);
@@ -270,8 +274,8 @@ class Life {
                        [&](const Json& plan) { return plan.at("robot") == robot.at("id"); });
   }
 
-  /// A robot that keeps its radius begins again with its first goal. Where goals are open, another one may
-  /// have taken its last one.
+  /// A robot that keeps its radius begins again with its first goal. If goals are open, another robot may
+  /// have taken its last goal.
   void start_anew(Json& body, const Json& robot) const {
     if (first_.dump().find("any_of") != std::string::npos) return;
     for (const Json& one : first_.at("robots")) {

@@ -1,5 +1,5 @@
-// Robots that are released to their goals, or beyond: what they serve is said once, by the visits and by the
-// waits of their plans alike, and made once.
+// Robots that are released to their goals, or beyond. What they serve is said once, by the visits and by the
+// waits of their plans alike, and done once.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 namespace fleetplan::api {
 namespace TEST_FILE {
 
-/// A robot with a service on its way, and one that drives beside it for longer.
+/// A robot with a service on its way, and a robot that drives beside it for longer.
 Json request_with(const Json& goal) {
   Json request = Json::parse(R"({
     "map": {"rows": ["........................", "........................", "........................",

@@ -10,7 +10,7 @@
 namespace fleetplan::api {
 namespace TEST_FILE {
 
-/// A robot that needs a metre to stop drives towards one that stands in a wide corridor.
+/// A robot that needs a metre to stop drives towards a robot that stands in a wide corridor.
 Json towards_another(double stop_distance) {
   return {{"request", Json::parse(R"({
             "map": {"rows": ["..........", "..........", ".........."]},

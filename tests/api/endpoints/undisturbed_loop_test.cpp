@@ -1,6 +1,6 @@
 // Fleets that nothing disturbs, planned again and again: every robot does exactly what is planned. Wherever
-// commitments end, all robots may stop there by their own brakes, and the next plan has nothing unavoidable
-// and leaves nobody out for what others are committed to.
+// commitments end, all robots may stop there by their own brakes. The next plan has nothing unavoidable, and
+// leaves no robot out because of commitments of others.
 
 #include <gtest/gtest.h>
 

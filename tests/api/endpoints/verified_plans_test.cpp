@@ -1,5 +1,5 @@
 // What POST /v1/plan returns as verified is valid for POST /v1/validate, also in extreme but accepted
-// requests, and what it returns can be planned from again.
+// requests. Its result can be planned from again.
 
 #include <gtest/gtest.h>
 

@@ -35,8 +35,8 @@ inline Json goal_of(const Json& robot, std::size_t number) {
   return robot.contains("goal") ? robot.at("goal") : robot.at("goals").at(number);
 }
 
-/// Every visit that takes time has one uninterrupted rest that is named after its goal, while it lasts, and
-/// no wait is named after a goal that is not visited.
+/// Every visit that takes time has one uninterrupted rest that is named after its goal while it lasts. No
+/// wait is named after a goal that is not visited.
 inline void expect_that_marks_follow_visits(const Json& robot, const Json& plan) {
   constexpr double kSame = 1e-6;  // seconds
   const Json& actions = plan.at("actions");

@@ -32,7 +32,7 @@ struct PngForm {
   int transparent_gray = -1;  // none
 };
 
-/// A PNG of rows of packed samples; those of 16 bits have the high byte first.
+/// A PNG of rows of packed samples. Samples of 16 bits have the high byte first.
 inline std::string png(int columns, const Samples& rows, const PngForm& form = {}) {
   std::string file;
   png_structp writer = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);

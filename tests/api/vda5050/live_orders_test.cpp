@@ -1,5 +1,5 @@
-// Orders of vehicles that drive while the fleet is planned again: they are continued from what is released of
-// them, or cancelled; and what vehicles report becomes states of robots.
+// Orders of vehicles that drive while the fleet is planned again. They are continued from their released
+// part, or cancelled. What vehicles report becomes states of robots.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -93,7 +93,7 @@ TEST(LiveOrders, AreCancelledIfThePlanPassesOtherNodes) {
   nodes.insert(nodes.begin() + 1, beside);
   EXPECT_THAT(hall.exported()["cancel_orders"][0]["detail"].get<std::string>(),
               HasSubstr("not committed to pass"));
-  // One that it has left behind does not matter.
+  // A node that it has left behind does not matter.
   nodes[1]["sequenceId"] = 0;
   EXPECT_TRUE(hall.exported()["cancel_orders"].empty());
 }

@@ -1,5 +1,5 @@
-// Random fleets whose vehicles report what is right, late, wrong or impossible, in any order: no gate is
-// opened but by a report that counts, and all are opened in the end.
+// Random fleets whose vehicles report what is right, late, wrong or impossible, in any order. Only a report
+// that counts opens a gate, and all gates are open in the end.
 
 #include <gtest/gtest.h>
 
@@ -123,7 +123,7 @@ class Driver {
   double at_ = 0.0;
 };
 
-/// Makes a state one that must not count. Returns what is wrong with it.
+/// Makes a state invalid, so that it must not count. Returns what is wrong with it.
 std::string spoil(Json& state, Dice& dice) {
   static const std::vector<const char*> kWrongs{R"({"orderId": "another"})",
                                                 R"({"orderUpdateId": 1000})",

@@ -70,7 +70,7 @@ TEST(Route, HasTheGreatestSpeedsOfProfiles) {
   EXPECT_EQ(way.edges[1].speed, 1.0);
   EXPECT_DOUBLE_EQ(way.edges[2].speed, 1.0) << "a metre to start, and one to stop";
   EXPECT_DOUBLE_EQ(way.edges[2].rotation_speed, std::sqrt(kRight));
-  // It starts and stops in 2 s and 1 m each: after 2 s of the 6 s it is at 1 m, and after 4 s at 3 m.
+  // It starts and stops in 2 s and 1 m each. After 2 s of the 6 s, it is at 1 m, and after 4 s at 3 m.
   const std::vector<core::Action> first(corner.actions.begin(), corner.actions.begin() + 1);
   const auto points = with_points_within(2.0, {}, first, unbounded_work());
   ASSERT_EQ(points.size(), 2U);

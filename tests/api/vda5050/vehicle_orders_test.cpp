@@ -1,5 +1,9 @@
-// What reports say of orders, by the standard of VDA 5050 2.0, 2.1 and 3.0.0: who has refused or lost one,
-// whose report opens gates, what is not served, and what a vehicle cannot do.
+// What reports say of orders, by the standard of VDA 5050 2.0, 2.1 and 3.0.0:
+//
+// - which vehicle has refused or lost an order,
+// - whose report opens gates,
+// - what is not served,
+// - and what a vehicle cannot do.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -199,7 +203,7 @@ TEST(Gates, AreOpenedByReportsThatCountOnly) {
 
 TEST(Gates, AreOpenedByAnOrderThatWasFinished) {
   const Reporting hall;
-  // Whoever is in control of a vehicle at its goal, it is there. One that was moved away is not.
+  // A vehicle at its goal is there, whoever controls it. A vehicle that was moved away is not.
   for (const char* mode : {"MANUAL", "INTERVENED"}) {
     Json message = at_end(hall);
     message["operatingMode"] = mode;

@@ -1,4 +1,4 @@
-// Answers requests without a server: reads lines of {"path": "/v1/plan", "body": {...}} from stdin and writes
+// Answers requests without a server. Reads lines of {"path": "/v1/plan", "body": {...}} from stdin and writes
 // the body of each answer as a line to stdout. scripts/bench --lab and --same build and use this.
 
 #include <functional>

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A day in a warehouse: the loop of the client for Python drives simulated robots against a server, and what they have
+"""A day in a warehouse. The loop of the client for Python drives simulated robots against a server. What they have
 driven is judged independently. scripts/bench --day starts it.
 
 Usage: day.py PROGRAM [ARGUMENTS of scripts/bench --day...]
@@ -28,7 +28,7 @@ STEP = 0.1  # seconds between instructions
 SPEED = 0.8, 1.0  # shares of the instructed speed that robots make
 ACCELERATION = 1.0  # metres per second squared: of robots, also when they brake
 BRAKES = 0.8  # metres per second squared: with which they are told to brake
-COMMIT = 2.4  # seconds: that of FleetLoop for its time budget and these brakes, whatever the budget is here
+COMMIT = 2.4  # seconds: the commitment of FleetLoop for its time budget and these brakes, whatever the budget is here
 STARVED = 300.0  # seconds
 MAX_TO_FINISH = 900.0  # seconds after the last task was offered
 
@@ -138,7 +138,7 @@ class Day:
         return planned + sum(task.seconds) - sum(goal["service"] for goal in task.goals)
 
     def report(self):
-        """The figures of the day; rates are those of the time in which tasks were offered."""
+        """The figures of the day. Rates refer to the time in which tasks were offered."""
         done = self.tasks.done
         ratios = sorted((task.end - task.begin) / task.alone for task in done)
         hours = self.offered_until / 3600.0

@@ -41,8 +41,8 @@ class Task:
 
 
 class Tasks:
-    """Goods are taken from a station to a shelf, or from a shelf to a station. Robots end where they serve the last goal;
-    those that have nothing to do make way."""
+    """Goods are taken from a station to a shelf, or from a shelf to a station. Robots end where they serve the last
+    goal. Robots that have nothing to do make way."""
 
     def __init__(self, warehouse, per_hour, seed):
         self.warehouse, self.rng, self.rate = warehouse, random.Random(seed), per_hour / 3600.0

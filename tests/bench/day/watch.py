@@ -65,7 +65,7 @@ class Watch:
         return service.left
 
     def look(self, fleet, standing=()):
-        """At what the robots have done since the last look. `standing`: those that could not go on."""
+        """Looks at what the robots have done since the last look. `standing`: the robots that could not go on."""
         paths = {robot: path_of(legs) for robot, legs in fleet.legs.items() if legs}
         for robot, legs in fleet.legs.items():
             self.account(robot, legs, robot in standing)

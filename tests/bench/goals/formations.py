@@ -1,5 +1,5 @@
 """Robots on a 4-connected grid whose goals are interchangeable, as a request and for the program of TSWAP (Okumura and
-Defago 2023), in whose model robots of one cell move a cell per step or wait."""
+Defago 2023). In its model, robots of one cell move a cell per step or wait."""
 
 import random
 import re

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Idle robots that make way, and goals that are interchangeable: what the first cost others, and what the second cost
-beside TSWAP. scripts/bench --goals starts it.
+"""The cost of idle robots that make way for others, and of goals that are interchangeable, beside TSWAP. scripts/bench
+--goals starts it.
 
 Usage: goals.py PROGRAM [ARGUMENTS of scripts/bench --goals...]
 """

@@ -5,7 +5,7 @@ import random
 CELL = 0.5  # metres
 BESIDE = 0.75  # metres: of places from walls and shelves
 APART = 1.5  # metres: between places
-AISLES = 2.0, 2.5, 3.0  # metres: in the narrowest, large robots do not pass one that stands
+AISLES = 2.0, 2.5, 3.0  # metres: in the narrowest aisle, large robots do not pass a robot that stands
 
 MAKES = [
     {"radius": 0.3, "linear_speed": 1.5, "angular_speed": 2.0},

@@ -89,8 +89,8 @@ struct Encounters {
   std::vector<core::MovingDisk> others;
 };
 
-/// The window of departures that one timed segment forbids to a move to a neighbouring cell: both at constant
-/// speed, or both from rest at constant acceleration.
+/// The window of departures that one timed segment forbids to a move to a neighbouring cell. Both are at
+/// constant speed, or both from rest at constant acceleration.
 void BM_ForbiddenDepartures(benchmark::State& state) {
   const auto ramp = static_cast<double>(state.range(0));
   const Encounters encounters(ramp);

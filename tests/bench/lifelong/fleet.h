@@ -18,7 +18,7 @@ struct VehicleType {
   double angular_speed;  // radians per second
 };
 
-/// A robot of the running warehouse. Times are those of the simulated clock.
+/// A robot of the running warehouse. Times are from the simulated clock.
 struct Vehicle {
   static constexpr double kNever = std::numeric_limits<double>::infinity();
 

@@ -173,8 +173,8 @@ class Simulation {
     }
   }
 
-  /// From `t` on, the robots execute the answer to a request of the time `asked`. Those without a plan
-  /// execute what is committed. Without an answer, those that drive go on as planned.
+  /// From `t` on, the robots execute the answer to a request of the time `asked`. Robots without a plan
+  /// execute their commitments. Without an answer, robots that drive go on as planned.
   void take(const api::Reply& reply, double asked, double t) {
     const json answer = json::parse(reply.body);
     std::map<std::string, const json*> plans;

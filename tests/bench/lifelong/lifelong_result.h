@@ -17,7 +17,7 @@ struct LifelongResult {
   double service_seconds = 0.0;
   std::size_t replans = 0;
   std::size_t under_way = 0;      // robots with a plan and moves ahead of them, summed over the replans
-  std::size_t changed = 0;        // those of them that got other moves
+  std::size_t changed = 0;        // robots among them that got other moves
   std::size_t unplanned = 0;      // summed over the replans
   std::size_t late = 0;           // replans that took longer than their budget
   std::vector<double> latencies;  // seconds of each replan

@@ -13,7 +13,7 @@ using Actions = std::vector<core::Action>;
 /// if there are none.
 core::Pose pose_at(const Actions& actions, double t, const core::Pose& rest);
 
-/// The actions before and after a time; one that is under way then is cut.
+/// The actions before and after a time. An action under way at this time is cut.
 struct CutActions {
   Actions before;
   Actions after;
@@ -33,8 +33,8 @@ Actions paused(const Actions& actions, double t, double seconds);
 /// Seconds of rotations and translations between two times.
 double moving_time(const Actions& actions, double from, double to);
 
-/// Whether two robots in the same place move in the same way at the same times, whatever waits, and actions
-/// that are cut in two, are in between.
+/// Whether two robots in the same place move in the same way at the same times. Waits, and actions that are
+/// cut in two, do not count.
 bool same_motion(const Actions& a, const Actions& b);
 
 }  // namespace fleetplan::bench

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Beside AA-CCBS, the optimal any-angle planner, on its published instances; scripts/bench --aaccbs builds and starts
-this.
+"""Comparison with AA-CCBS, the optimal any-angle planner, on its published instances. scripts/bench --aaccbs builds and
+starts this.
 
 Yakovlev, Andreychuk and Stern: Optimal and bounded suboptimal any-angle multi-agent pathfinding, IROS 2024. FOLDER has
-the content of the branch AA-CCBS of the repository of Continuous-CBS: `Instances` with an archive of each map, and
-`ExpResults` with a workbook, each of whose sheets has the results on one map. The archive of empty-16-16 is missing
-there and is the one of the branch master.
+the content of the branch AA-CCBS of the repository of Continuous-CBS. `Instances` has an archive of each map.
+`ExpResults` has a workbook; each of its sheets has the results on one map. The archive of empty-16-16 is missing there
+and comes from the branch master.
 
 Usage: aaccbs.py PROGRAM [ARGUMENTS of scripts/bench --aaccbs...]
 """
@@ -111,9 +111,9 @@ def counts_of(instances, scenario, largest):
 
 
 def jobs_of(name, requests, costs, arguments):
-    """Two lists of jobs for fleetplan_bench: first solutions with every number of robots that AA-CCBS solved and one
-    robot more than that; and `anytime` without the latter, or only with the largest numbers that its optimal and its
-    other variants solved."""
+    """Two lists of jobs for fleetplan_bench. The first list is for first solutions, with every number of robots that
+    AA-CCBS solved, and with one robot more. The second list is for `anytime`. It has no robot more, or only the largest
+    numbers that the optimal and the other variants of AA-CCBS solved."""
     first, anytime = [], []
     for scenario, body in requests.items():
         solved = counts_of(costs["any"], scenario, False)
@@ -167,7 +167,7 @@ def of(part, whole):
 
 
 def most_solved(found, optimal):
-    """Of the optimal variants, or of the others, the number of instances of the one that solved most."""
+    """The most instances that any of the optimal variants solved, or any of the others."""
     return max((len(results) for name, results in found.items() if name.endswith(OPTIMAL) == optimal), default=0)
 
 

@@ -7,8 +7,8 @@ import zipfile
 import aaccbs
 from support import ProgramTest, write_workbook
 
-# Stands for fleetplan_bench: solves everything with 20 of flowtime for each robot, or 19 with `anytime`; takes as many
-# seconds as there are robots, divided by 4.
+# Stands for fleetplan_bench. It solves everything with 20 of flowtime for each robot, or 19 with `anytime`. It takes as
+# many seconds as there are robots, divided by 4.
 PROGRAM = """#!%s
 import json, sys
 print("file,robots,solved,attempts,seconds,flowtime,makespan,cpu_seconds,peak_memory,planned,lower_bound,expansions,"

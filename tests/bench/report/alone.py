@@ -1,4 +1,4 @@
-"""The time of planning a fleet over that of planning each of its robots alone on the static map."""
+"""The time of planning a fleet over the time of planning each of its robots alone on the static map."""
 
 import markdown
 from markdown import decimal, percent, seconds, times

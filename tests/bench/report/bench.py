@@ -23,7 +23,7 @@ from tables import closing_lines, comparison_report, comparison_totals, hall_rep
 
 
 def jobs_of(arguments, reference, form="png"):
-    """The jobs; `form` is that of the maps of buildings."""
+    """The jobs. `form`: the form of the maps of buildings."""
     if arguments.buildings:
         return buildings_of(arguments, form)
     if arguments.scaling:

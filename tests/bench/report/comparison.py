@@ -32,7 +32,7 @@ class Pair:
 
 
 class Comparison:
-    """The pairs in the order of our runs, without those that the reference does not contain."""
+    """The pairs in the order of our runs, without runs that the reference does not contain."""
 
     def __init__(self, ours, reference):
         found = {(result.file, result.robots): result for result in reversed(reference)}

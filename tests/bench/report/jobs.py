@@ -59,8 +59,8 @@ def file_jobs(paths, counts):
 
 
 def reference_jobs(paths, counts, reference, root):
-    """The instances of the reference, or only those of the given files, with the reference's numbers of robots unless
-    others are given. The reference names files relative to `root`."""
+    """The instances of the reference, or only the instances of the given files. The numbers of robots are the
+    reference's, unless others are given. The reference names files relative to `root`."""
     robots = {}
     for result in reference:
         robots.setdefault(result.file, []).append(result.robots)

@@ -4,8 +4,8 @@
 ROBOTS = range(15, 301, 15)
 SEEDS = range(1, 101)
 
-# The paper's planner solved every instance of the empty hall with up to ALL_SOLVED_UP_TO robots, and less than
-# FEW_SOLVED of them with FEW_SOLVED_FROM robots or more.
+# The paper's planner solved every instance of the empty hall with up to ALL_SOLVED_UP_TO robots. With FEW_SOLVED_FROM
+# robots or more, it solved less than FEW_SOLVED of them.
 ALL_SOLVED_UP_TO = 210
 FEW_SOLVED_FROM = 285
 FEW_SOLVED = 0.1

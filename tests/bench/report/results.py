@@ -1,6 +1,6 @@
 """Results of planning runs as CSV, one row for each run.
 
-Results of any planner have the columns file, robots, solved, attempts, seconds, flowtime and makespan, so a file that
+Results of any planner have the columns file, robots, solved, attempts, seconds, flowtime and makespan. So a file that
 fleetplan_bench wrote can be the reference of a later run. Values contain no commas.
 """
 

@@ -1,10 +1,15 @@
 #!/usr/bin/env python3
-"""Whether two builds answer the same; scripts/bench --same builds and starts this.
+"""Compares the answers of two builds. scripts/bench --same builds and starts this.
 
-Asks both the same requests: those of random lives with everything that requests may have (tests/soak/lives), the example
-requests, given files, and what follows from their plans (simulations, dependencies, orders of VDA 5050 and the like).
-Answers are compared whole but for times of this machine; plans that a time budget has ended are not. Prints how many
-requests had what, and the instructions that some of them take in both builds, if valgrind is installed.
+Asks both builds the same requests:
+
+- random lives with everything that requests may have (tests/soak/lives),
+- the example requests, and given files,
+- what follows from their plans: simulations, dependencies, orders of VDA 5050 and the like.
+
+Answers are compared as a whole, except for times of this machine. Plans that a time budget has ended are not compared.
+Prints how many requests had what. If valgrind is installed, also prints the instructions that some of them take in both
+builds.
 
 Usage: same.py PROGRAM LIVES --output FOLDER [--other COMMAND] [--environment NAME=VALUE] [--rounds N] [--seed N]
                [--counted N] [FILE|FOLDER...]
@@ -168,7 +173,7 @@ def ask_in_turn(command, environment, requests):
 
 
 def compare(requests, answers, others):
-    """The numbers of requests whose answers differ, and of those that are not compared."""
+    """The numbers of requests whose answers differ, and of requests that are not compared."""
     differences, ended = [], []
     for number, (request, answer, other) in enumerate(zip(requests, answers, others, strict=True)):
         if request["path"] == "/v1/plan" and not (is_repeatable(answer) and is_repeatable(other)):

@@ -32,7 +32,7 @@ class Summary:
     robots: int
     runs: int
     solved: int
-    # Seconds of all runs, including those that solved nothing.
+    # Seconds of all runs, including runs that solved nothing.
     median_seconds: float
     percentile_90_seconds: float
     longest_seconds: float

@@ -1,5 +1,5 @@
-// Checks Kubernetes manifests against the schemas of Kubernetes, in two steps: the validation of the schemas, which
-// accepts unknown members, and their TypeScript types, which do not.
+// Checks Kubernetes manifests against the schemas of Kubernetes, in two steps. First, the validation of the schemas,
+// which accepts unknown members. Then, their TypeScript types, which do not.
 
 import { createRequire } from "node:module";
 

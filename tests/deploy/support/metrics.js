@@ -14,7 +14,10 @@ export async function metricsOfServer() {
   }
 }
 
-/** The series of this service in an expression, with a label if it has exactly one that is not a pattern. */
+/**
+ * The series of this service in an expression. If a series has exactly one label that is not a pattern, with this
+ * label.
+ */
 export function seriesIn(expression) {
   return expression.match(/\b(?:fleetplan|process)_\w+(?:\{[^}=~]*="[^"]*"\})?/g) ?? [];
 }

@@ -73,8 +73,8 @@ export class Document {
   }
 
   /**
-   * The answer that is documented for this request and status, {value, steps}, or undefined. An unknown path has
-   * the answer of the component NotFound, an unknown method those of the path's other methods.
+   * The answer that is documented for this request and status, {value, steps}, or undefined. An unknown path has the
+   * answer of the component NotFound. An unknown method has the answers of the path's other methods.
    */
   responseTo(method, target, status) {
     const path = this.pathOf(target);

@@ -26,7 +26,7 @@ function poseAt(actions, t) {
 }
 
 const goalsOf = ({ goal, goals }) => goals ?? (goal ? [goal] : []);
-/** Those that have one pose. */
+/** The goals that have one pose. */
 const placedGoalsOf = (robot) => goalsOf(robot).filter(({ any_of }) => any_of === undefined);
 
 /** One value for some of the items. */
@@ -282,10 +282,9 @@ export class Executions {
   }
 
   /**
-   * Later moments of the plans. Robots are late together, by as much, as each on its own may be where another one
-   * has come meanwhile, which is no fault of the service. They are measured, or report how far they are. Starts may
-   * overlap by as much as poses are off the plans.
-   * New goals are those that the robot has had.
+   * Later moments of the plans. Robots are late together, by the same time. If each were late on its own, another robot
+   * might have come to its place meanwhile, which is no fault of the service. Robots are measured, or report how far
+   * they are. Starts may overlap by as much as poses are off the plans. New goals are goals that the robot has had.
    */
   moments() {
     return this.#fleets.chain(({ request, answer }) => {

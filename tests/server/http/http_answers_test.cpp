@@ -21,7 +21,7 @@ class HttpAnswers : public testing::Test {
     return settings;
   }
 
-  /// Checks that an answer is a problem of this status and code, whose id is that of the header.
+  /// Checks that an answer is a problem of this status and code, with the same id as the header.
   static nlohmann::json expect_problem(const httplib::Result& result, int status, const std::string& code) {
     EXPECT_TRUE(result) << httplib::to_string(result.error());
     if (!result) return {};

@@ -1,4 +1,4 @@
-// Workers without a request help with those of others.
+// Workers without a request help with requests of others.
 
 #include <gtest/gtest.h>
 

@@ -126,7 +126,7 @@ TEST(Queue, MakesFirstPlansWhileOthersImproveTheirs) {
     EXPECT_EQ(planned->status, 200);
     EXPECT_EQ(Json::parse(planned->body)["status"], "solved");
   }
-  // The worker has one paused improvement at most, so that of two, one has ended with what it had.
+  // The worker has at most one paused improvement. So one of two has ended with what it had.
   EXPECT_TRUE(holds_soon([&] { return has_metric("fleetplan_improvements_ended_total 1\n"); }));
 }
 

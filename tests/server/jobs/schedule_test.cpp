@@ -328,8 +328,8 @@ TEST_F(Schedules, RefuseNobodyForLongTurnsThatAreShared) {
   }
 }
 
-/// Whatever number of simulations and travel times there is, of one client or of several: every plan gets its
-/// turn soon, and never are more jobs paused than there are workers, and one more.
+/// There may be any number of simulations and travel times, of one client or of several. Every plan gets its
+/// turn soon. Never are more jobs paused than there are workers, and one more.
 TEST_F(Schedules, AreNotKeptByJobsThatShareTheirTurns) {
   constexpr std::size_t kWorkers = 2;
   for (const bool own_clients : {false, true}) {

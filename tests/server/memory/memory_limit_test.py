@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""The server under a limit of its address space (RLIMIT_AS): requests that want more than their share of memory get
-an answer, and honest ones are planned beside and after them. And a command with more workers than threads fit into it.
+"""The server under a limit of its address space (RLIMIT_AS). Requests that want more than their share of memory get an
+answer, and honest requests are planned beside and after them. Also a command with more workers than threads fit into
+it.
 
   memory_limit_test.py FLEETPLAN    the executable
 """
@@ -118,8 +119,8 @@ class MemoryLimit(unittest.TestCase):
         self.assertEqual(self.server.stop(), 0)
 
     def expect_answered(self, request):
-        """The status is that of a plan, which may be partial, or of a request that needs too much memory, or more time
-        for its check than a busy machine has."""
+        """The answer is a plan, which may be partial, or a refusal. A request may be refused if it needs too much
+        memory, or more time for its check than a busy machine has."""
         status, answer = self.server.post(request)
         if status != 200:
             self.assertEqual(status, 422, answer)

@@ -1,7 +1,9 @@
 // Random lives of fleets with everything that requests may have, together: plan, validate the answer, go on
-// to a random moment, and plan again. What /v1/advance returns is accepted by /v1/plan; robots that execute
-// what is committed meet nobody but those that are named; loads, goals and profiles are kept. What robots do
-// is computed from the JSON by code of the test.
+// to a random moment, and plan again. Code of the test computes from the JSON what robots do. It checks that
+//
+// - /v1/plan accepts what /v1/advance returns,
+// - robots that execute their commitments meet only robots that are named,
+// - loads, goals and profiles are kept.
 //
 // FLEETPLAN_ROUNDS is how often they are planned in all, FLEETPLAN_FIRST_LIFE the seed of the first fleet.
 // FLEETPLAN_RECORD names a file to which all requests are written.
@@ -236,7 +238,7 @@ class EverythingLife {
     EXPECT_EQ(load.acceleration, past->load.acceleration) << id;
     EXPECT_EQ(load.deceleration, past->load.deceleration) << id;
     if (has_entry(body, "goals", id)) return expect_that_passed_loads_are_kept(robot, plan, at, left);
-    if (own_goals(robot).empty()) return;  // one that returns has a goal at its start then
+    if (own_goals(robot).empty()) return;  // then a robot that returns has a goal at its start
     const bool goes =
         past->has_served_last && (robot.value("idle", "") == "stay" || robot.value("idle", "") == "yield");
     const std::size_t count =
@@ -300,7 +302,7 @@ class EverythingLife {
     }
   }
 
-  /// Whether the committed actions are not those of the plan: the robot is held.
+  /// Whether the committed actions differ from the plan: the robot is held.
   static bool has_moved(const Json& plan, const Json& left, double at) {
     const Json& last = left.at("committed").back();
     const double t = at + last.at("t_end").get<double>();
@@ -321,7 +323,7 @@ class EverythingLife {
     if (until == 1e8) body["holds"].back()["until"] = 1e8 - dice_.between(0.0, 1.0);
   }
 
-  /// Other goals: in a tight fleet any ones, and the last one where it was; otherwise those of the first
+  /// Other goals. In a tight fleet, any goals, with the last one where it was. Otherwise, goals of the first
   /// request, if it has no loads.
   void set_goals(Json& body, const Json& robot) {
     Json* first = robot_of(first_, robot.at("id"));

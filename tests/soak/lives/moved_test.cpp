@@ -1,5 +1,5 @@
-// Requests that are moved in the world get the same answers, moved: to the last digit if no digit is lost by
-// moving what they have.
+// Requests that are moved in the world get the same answers, moved. They are equal to the last digit if the
+// move loses no digit of the request.
 
 #include "tests/api/support/moved.h"
 

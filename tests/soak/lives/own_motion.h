@@ -95,7 +95,7 @@ class OwnMotion {
     return radius;
   }
 
-  /// Sets where it is; `t` must not be before that of the call before.
+  /// Sets where it is. `t` must not be less than in the call before.
   void place_at(double t, double& x, double& y) {
     while (now_ < legs_.size() && legs_[now_].t_end <= t) ++now_;
     if (now_ == legs_.size()) {

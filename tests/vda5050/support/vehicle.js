@@ -49,7 +49,7 @@ class RecordingVehicle extends vda.VirtualAgvAdapter {
     if (edge && this.isFailing) return this.controller.updateErrors(MOTOR_ERROR, "add", true);
     super._advanceTraverse(...time);
     if (!edge || this._traverseContext !== edge) return;
-    // The library takes the orientation of an edge to be that of the map, although it is tangential.
+    // The library takes the orientation of an edge as relative to the map, although it is tangential.
     const { x, y } = edge.endNode.nodePosition;
     const ahead = Math.atan2(y - this.vehicleState.position.y, x - this.vehicleState.position.x);
     this.vehicleState.position.theta = ahead + (edge.edge.orientation ?? 0);
@@ -65,8 +65,8 @@ class Controller extends vda.AgvController {
   refused = [];
 
   /**
-   * The actions of the node at which an update begins are known already: from VDA 5050 2.1 on they are sent again, and
-   * the library, which speaks 2.0, would execute them again.
+   * The actions of the node at which an update begins are known already. From VDA 5050 2.1 on, they are sent again. The
+   * library, which speaks 2.0, would execute them again.
    */
   _acceptOrder(order, mode) {
     if (mode === "new") return super._acceptOrder(order, mode);

@@ -1,5 +1,6 @@
 // How long the page takes until it can be used, on a slow connection: from the navigation until the first example is
-// drawn and the Plan button is enabled. First with an empty cache, then again with a filled one. Medians of some runs.
+// drawn and the Plan button is enabled. First with an empty cache, then again with a filled cache. Medians of some
+// runs.
 //
 //   FLEETPLAN_BIN=… node bench/first_load.js [runs] [web root]
 

@@ -1,7 +1,9 @@
-// Whether the page stays responsive with a thousand robots or four million cells: its longest task while these are
-// opened or planned, and the scripts and styles of a frame while the camera moves or the plan plays. CPU time of the
-// page's main thread, as reported by Chromium's tracing, without a GPU: "painted" has the painting of canvases, which a
-// GPU would do. Other work on the machine does not count, but for what it costs caches. Medians of some runs.
+// Whether the page stays responsive with a thousand robots or four million cells. It measures the page's longest task
+// while these are opened or planned, and the scripts and styles of a frame while the camera moves or the plan plays.
+//
+// The figures are CPU time of the page's main thread, as reported by Chromium's tracing, without a GPU. "painted"
+// includes the painting of canvases, which a GPU would do. Other work on the machine does not count, except for its
+// effect on caches. Medians of some runs.
 //
 //   FLEETPLAN_BIN=… node bench/frame_times.js [runs] [seconds of each movement]
 

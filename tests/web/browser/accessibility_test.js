@@ -123,7 +123,7 @@ const STATES = {
   },
 };
 
-/** All rules in the light colours, and those that depend on colours in the dark ones. */
+/** All rules in the light colours, and the rules that depend on colours in the dark ones. */
 async function assertAccessibleInBoth(page, state) {
   await assertAccessible(page, `${state}, light`);
   await page.emulateMedia({ colorScheme: "dark" });

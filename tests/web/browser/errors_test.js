@@ -1,5 +1,5 @@
-// What goes wrong, as people meet it: services that go away or are busy, files that are too large or of another kind, names
-// with markup; and windows, zoom and keyboards that are not the usual ones. In headless Chromium.
+// What goes wrong, as people meet it: services that go away or are busy, files that are too large or of another kind,
+// names with markup. Also unusual windows, zoom and keyboards. In headless Chromium.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";

@@ -1,5 +1,5 @@
-// A large map of ROS, as robots save it: map.yaml and its PGM of 2000 x 2000 cells, which the page imports as an image,
-// draws, edits and plans on.
+// A large map of ROS, as robots save it: map.yaml and its PGM of 2000 x 2000 cells. The page imports it as an image,
+// draws, edits and plans on it.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";

@@ -79,8 +79,8 @@ async function readVideo(page, path, read) {
 }
 
 /**
- * On the page: seeks through a video; its duration and size, and how many of three pictures differ, in their left and in
- * their right half.
+ * On the page: seeks through a video. Returns its duration and size, and how many of three pictures differ, in their
+ * left and in their right half.
  */
 async function lookThrough(video) {
   const { duration, videoWidth, videoHeight } = video;

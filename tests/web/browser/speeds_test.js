@@ -9,7 +9,7 @@ import { pagesFor, paste } from "../support/on_page.js";
 
 const onPage = pagesFor();
 
-// It drives 9 m ahead, at 2 m/s after 2 s, and loses that in 1 s; then it turns left by 2 rad in 4 s.
+// It drives 9 m ahead, at 2 m/s after 2 s, and loses this speed in 1 s. Then it turns left by 2 rad in 4 s.
 const ONE = {
   map: { rows: Array(3).fill(".".repeat(12)) },
   robots: [

@@ -49,8 +49,8 @@ for (const part of ["**/model/scene.js", "**/main.js", "**/styles/main.css"]) {
 }
 
 /**
- * Waits for the styles, by which the notice shows itself after a while, and puts that while at the page's command: returns
- * how long it is, seconds, and a function that shows the notice at a time within it.
+ * Waits for the styles, by which the notice shows itself after a while, and puts this time at the page's command.
+ * Returns how long it is, seconds, and a function that shows the notice at a time within it.
  */
 async function stopNotice(page) {
   const after = await page.waitForFunction(() => {

@@ -9,8 +9,8 @@ const SOURCE = await readFile(new URL("../node_modules/axe-core/axe.min.js", imp
 export const COLOUR_RULES = ["color-contrast", "link-in-text-block"];
 
 /**
- * Fails with every element of the page that violates one of these rules of axe-core, or all of its rules for pages;
- * `state` says what the page shows.
+ * Fails with every element of the page that violates one of these rules of axe-core. Without rules, all rules for pages
+ * apply. `state` says what the page shows.
  */
 export async function assertAccessible(page, state, rules = null) {
   if (!(await page.evaluate(() => "axe" in window))) await page.evaluate(SOURCE);
@@ -24,8 +24,8 @@ export async function assertAccessible(page, state, rules = null) {
 function violationsOn(page, rules, options = {}) {
   return page.evaluate(
     async ({ values, options }) => {
-      // Details of violations only, and no media, which the page does not have, or a copy of its styles, which none of
-      // these rules asks for: that takes a fraction of the time.
+      // Details of violations only, which takes a fraction of the time. No media, which the page does not have. No copy
+      // of its styles, which none of these rules needs.
       const { violations, passes } = await /** @type {any} */ (window).axe.run({
         resultTypes: ["violations"],
         preload: false,

@@ -6,8 +6,8 @@ import { openPage } from "./browser.js";
 import { sharedBrowser, sharedService } from "./shared.js";
 
 /**
- * Returns a function that runs `steps(page, opened)` on a fresh page of a server with these flags; the page must have no
- * complaints other than those that match `allowed`, a regular expression.
+ * Returns a function that runs `steps(page, opened)` on a fresh page of a server with these flags. The page must have
+ * no complaints, except complaints that match `allowed`, a regular expression.
  */
 export function pagesFor(flags = []) {
   return async (steps, { options = {}, allowed = null, hash = "" } = {}) => {
@@ -54,9 +54,9 @@ export async function pasteText(page, text) {
 }
 
 /**
- * Answers requests for plans with a stream of these events, [[name, data]], an object or a text each, which does not
- * end; or ends, as a lost connection does, if it is `cut`. Returns what sends further events and ends it:
- * {send(events), end()}.
+ * Answers requests for plans with a stream of these events, [[name, data]], an object or a text each. The stream does
+ * not end, unless it is `cut`: then it ends as a lost connection does. Returns functions that send further events and
+ * end it: {send(events), end()}.
  */
 export async function streamPlan(page, events, { cut = false } = {}) {
   const chunksOf = (all) => all.map(([name, data]) => `event: ${name}\ndata: ${JSON.stringify(data)}\n\n`);
@@ -124,8 +124,8 @@ export const twoFrames = (page) =>
   page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 
 /**
- * What is painted on a canvas around each of these places ({x, y}, CSS pixels): the RGBA bytes of the pixels that are at
- * most `reach` CSS pixels away in x and in y, as far as the canvas reaches. The next frames are waited for.
+ * What is painted on a canvas around each of these places ({x, y}, CSS pixels). Returns the RGBA bytes of the pixels
+ * that are at most `reach` CSS pixels away in x and in y, as far as the canvas reaches. The next frames are waited for.
  */
 async function painted(page, id, places, reach) {
   await twoFrames(page);

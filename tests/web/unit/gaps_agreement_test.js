@@ -1,5 +1,5 @@
-// The page measures gaps as the service's check does: in the plan of each example and of random fleets with loads and, to
-// have robots under way, with loads and with committed motion, in that of a moment later.
+// The page measures gaps in the same way as the service's check. The plans are of each example, and of random fleets
+// with loads. To have robots under way, there are also plans of a moment later, with loads and committed motion.
 
 import assert from "node:assert/strict";
 import { after, test } from "node:test";

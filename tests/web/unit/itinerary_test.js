@@ -61,7 +61,7 @@ function fleetOf(plans) {
   return new Map(motions);
 }
 
-// Waits 4 s for one that comes along the crossing at x = 5 and passes it at t = 6.
+// Waits 4 s for a robot that comes along the crossing at x = 5 and passes it at t = 6.
 const CROSSING = {
   waiter: through([0, 0, 0], [1, 1, 0], [5, 1, 0], [14, 10, 0]),
   passer: through([0, 5, 6], [12, 5, -6]),

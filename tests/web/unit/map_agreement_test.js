@@ -1,5 +1,5 @@
-// The page reads maps as the service does, cell by cell. A robot that is smaller than a cell stands in each of them,
-// and the service reports those that stand in an obstacle.
+// The page reads maps in the same way as the service, cell by cell. A robot that is smaller than a cell stands in each
+// cell, and the service reports robots that stand in an obstacle.
 
 import assert from "node:assert/strict";
 import { after, test } from "node:test";

@@ -44,7 +44,7 @@ test("every member of the service's answers is one of an answer", async () => {
   const [answer, request] = ["PlanAnswer", "PlanRequest"].map((name) =>
     Object.keys(schemas[name].properties),
   );
-  const both = ["metadata", "unavoidable"]; // the metadata of an answer are those of its request
+  const both = ["metadata", "unavoidable"]; // the metadata of an answer equal the metadata of its request
   for (const name of answer) {
     assert.equal(request.includes(name), both.includes(name), name);
     assert.equal(Object.hasOwn(OF_ANSWERS, name), name !== "metadata", name);

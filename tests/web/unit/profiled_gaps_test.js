@@ -62,7 +62,7 @@ function wanderer(next) {
   return { robot, actions };
 }
 
-/** Another one that crosses the way of the first, so that the two come near. */
+/** Another robot that crosses the way of the first, so that the two come near. */
 function crossing(next, { robot, actions }) {
   const other = wanderer(next);
   const t = 2 + 3 * next();

@@ -16,7 +16,7 @@ const drive = (t_start, t_end, from, to, more = {}) => ({
   ...more,
 });
 
-// 18 m at 2 m/s: 2 m in 2 s, 12 m in 6 s, 4 m in 4 s; then it turns 2 rad clockwise in 2 s, at most 2 rad/s.
+// 18 m at 2 m/s: 2 m in 2 s, 12 m in 6 s, 4 m in 4 s. Then it turns 2 rad clockwise in 2 s, at most 2 rad/s.
 const INERTIA = { linear_acceleration: 1, linear_deceleration: 0.5, angular_acceleration: 2 };
 const SMOOTH = withChanges(
   [

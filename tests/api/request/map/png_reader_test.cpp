@@ -1,4 +1,4 @@
-// PNG files as no encoder writes them. Those of ordinary forms are in image_reader_test.cpp.
+// PNG files that encoders do not write. PNG files of ordinary forms are in image_reader_test.cpp.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -20,7 +20,7 @@ const httplib::Headers kEvents{{"Accept", "text/event-stream"}};
 const std::string kLargeAnswer = R"({"status":")" + std::string(8 << 20, 'x') + "\"}";
 
 /// The body selects the behaviour: "gate" waits at the gate after begin(), "flood" reports many incumbents,
-/// "throw" throws, "fault" is rejected; any other body is answered at once.
+/// "throw" throws, "fault" is rejected. Any other body is answered at once.
 class EventfulService {
  public:
   Service service() {
