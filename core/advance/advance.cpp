@@ -26,7 +26,7 @@ struct GoalsLeft {
   std::vector<Goal> goals;
   std::size_t visited = 0;
   Load load;         // of the robot
-  double age = 0.0;  // seconds for which the next one could have been served already
+  double age = 0.0;  // seconds for which the next goal has been waiting
 };
 
 /// Whether the last goal has been served by the rest at the end of a plan.
@@ -58,7 +58,7 @@ std::optional<double> service_left_of(const Execution& execution, std::size_t go
   return execution.reported->service_left;
 }
 
-/// `progress`: the planned time of what the robot has executed of its actions. It stands after the last one.
+/// `progress`: the planned time of the actions that the robot has executed. After the last action, it stands.
 GoalsLeft goals_left(const Robot& robot, const Execution& execution, double progress, double at) {
   const ActionSequence& actions = execution.actions;
   Robot past = robot;
@@ -230,8 +230,8 @@ Remainder remainder_of(const Robot& robot, const Execution& execution, const Loc
   return rest;
 }
 
-/// Until when it has served goals, on the clock of its actions. Who is still on the way to where an action
-/// ends has served nothing there, however near it is, and whatever it reports.
+/// Until when it has served goals, on the clock of its actions. A robot that is still on the way to the end
+/// of an action has served nothing there. This holds however near it is, and whatever it reports.
 double served_until(const Robot& robot, const Execution& execution, const Located& located,
                     const Moment& moment) {
   const auto [index, t] = located.progress;
@@ -250,8 +250,7 @@ GoalsLeft goals_left(const Robot& robot, const Execution& execution, const Locat
   return goals_left(robot, execution, served_until(robot, execution, located, moment), moment.at);
 }
 
-/// Whether a robot that is so far in its actions is on the way, not only about to set out. Its own word
-/// counts.
+/// Whether a robot at this progress is on the way, and not only about to set out. Its own report counts.
 bool drives(const Robot& robot, const Execution& execution, const TimedProgress& progress) {
   const ActionSequence& actions = execution.actions;
   const auto [index, t] = progress;

@@ -16,7 +16,7 @@ namespace fleetplan::core {
 
 namespace {
 
-/// Pairs that are listed; where more overlap, nobody reads all of them.
+/// The most pairs that are listed. If more overlap, no reader needs all of them.
 constexpr std::size_t kMaxPairs = 10'000;
 
 /// A commitment that cannot end there ends by so much before disks overlap, at most (seconds).

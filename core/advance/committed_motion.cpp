@@ -165,7 +165,7 @@ class Clearing {
     cut(robot, early);
   }
 
-  /// Whether the other one does not come too near to the robot if that ends its commitment at `t`.
+  /// Whether the other robot does not come too near if this robot ends its commitment at `t`.
   bool may_stand(std::size_t robot, double t, std::size_t other) {
     const std::vector<Piece>& mine = pieces_[robot];
     const auto at_t =
@@ -380,8 +380,8 @@ class Clearing {
   }
 
   /// Where the disks of two commitments begin to overlap, or to come nearer if they overlap. A robot without
-  /// a goal certainly stays at the end of its commitment. No robot can leave before another one that touches
-  /// it already.
+  /// a goal certainly stays at the end of its commitment. A robot that touches another one cannot leave
+  /// before it.
   std::optional<Meeting> first_contact(std::size_t robot, std::size_t other) {
     const std::vector<Piece>& mine = pieces_[robot];
     const std::vector<Piece>& theirs = pieces_[other];

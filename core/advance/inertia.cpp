@@ -33,7 +33,7 @@ std::size_t begin_of_chain(const ActionSequence& actions, std::size_t index) {
   return index;
 }
 
-/// Brakes from the end of the last of the driven actions on, which is a part of the one with this index.
+/// Brakes from the end of the last driven action on. It is a part of the action with this index.
 void brake(ActionSequence& driven, const ActionSequence& actions, std::size_t index) {
   for (;; ++index) {
     const Action& planned = actions[index];

@@ -26,7 +26,7 @@ ActionPlace at_end(const ActionSequence& actions, ActionPlace place) {
   return place;
 }
 
-/// The actions before a place, of which the one under way there is cut. The robot stands there.
+/// The actions before a place. An action under way there is cut, and the robot stands there.
 ActionSequence before_place(const ActionSequence& actions, const ActionPlace& place) {
   const auto index = static_cast<std::ptrdiff_t>(place.action);
   ActionSequence before(actions.begin(), actions.begin() + index);

@@ -305,7 +305,8 @@ Remainder remainder(const Robot& robot, const ActionSequence& actions, double at
   if (under_way == actions.size()) return rest;
   const Action& planned = actions[under_way];
   Action action = part_from(planned, std::max(at, planned.t_start));
-  // Hardly anything is left of the one before, which is done: this one begins, unless it stood in between.
+  // Hardly anything of the previous action is left, so it is done. This action begins, unless the robot stood
+  // in between.
   const bool begins_later =
       at < planned.t_start && under_way > 0 && !goes_on(actions[under_way - 1], planned);
   if (begins_later && planned.type != Action::Type::wait && planned.t_start - at >= kLeastAction) {

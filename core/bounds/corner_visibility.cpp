@@ -59,7 +59,7 @@ class CornerVisibility::View {
   View(CornerVisibility& corners, double x, double y) : corners_(corners), x_(x), y_(y) {}
 
   /// Returns the corners visible from the viewpoint, ascending. With `bend`, the corner at the viewpoint,
-  /// returns only those to which tangents lead from its bends.
+  /// returns only corners to which tangents lead from its bends.
   std::vector<int> find(const Corner* bend) {
     const int right_above = bend == nullptr ? 0 : -bend->away_x * bend->away_y;
     scan(true, right_above);

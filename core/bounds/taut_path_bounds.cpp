@@ -174,9 +174,9 @@ namespace {
 /// The work for all robots of a request together (see TautPathSearch::work),
 /// 0.3 to 0.5 s.
 constexpr std::int64_t kMaxWork = 30'000'000;
-/// One robot may use the remaining work divided by this, since the first ones also compute what others share.
+/// A robot may use the remaining work divided by this. The first robots also compute what others share.
 constexpr std::int64_t kWorkDivisor = 64;
-/// Legs between two checks of the stop condition while it is found out which ones are straight.
+/// Legs between two checks of the stop condition, while the straight legs are found.
 constexpr std::size_t kLegsBetweenPolls = 64;
 
 /// Whether the robot's disk is clear of obstacles at both ends of a leg. Elsewhere it always is.

@@ -69,7 +69,8 @@ class Instance {
  private:
   const Problem& problem_;
   PlanOptions options_;
-  std::vector<std::shared_ptr<const Lattice>> lattices_;  // by robot; those with one spacing share one
+  std::vector<std::shared_ptr<const Lattice>> lattices_;  // by robot; robots with the same spacing share a
+                                                          // lattice
   std::vector<Itinerary> itineraries_;                    // by robot
   std::vector<Views> views_;                              // by robot
   Contacts contacts_;

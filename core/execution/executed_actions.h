@@ -43,7 +43,7 @@ struct PlannedStretch {
   double begin = 0.0;     // whole progress
   double length = 0.0;    // the number of actions; 0 of a rest after the last action
   double radius = 0.0;    // metres, of the disk that the robot occupies
-  bool separates = true;  // whether it keeps others away in ways that those beside it do not
+  bool separates = true;  // whether it keeps others away in ways that the stretches beside it do not
 };
 
 /// The planned progress of one robot over time, and the inverse.

@@ -13,7 +13,7 @@ namespace {
 /// The most places that are tested for one disk and for all of them.
 constexpr std::size_t kMaxPlacesOfOne = 8'000;
 constexpr std::size_t kMaxPlaces = 40'000;
-/// Places are looked for on circles about the disk, each so much larger than the one before.
+/// Places are searched on circles about the disk. Each circle is so much larger than the circle before.
 constexpr double kGrowth = 1.05;
 constexpr double kLeastGrowth = 1e-3;  // metres
 constexpr int kDirections = 64;

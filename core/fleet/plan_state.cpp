@@ -141,7 +141,7 @@ SearchResult PlanState::search_whole_way(std::size_t robot, const SearchSettings
   return result;
 }
 
-/// The robots, but for one, that stand at their goals and have no plan yet.
+/// The robots that stand at their goals and have no plan yet, except this robot.
 std::vector<std::size_t> PlanState::arrived_without_plan(std::size_t except) const {
   std::vector<std::size_t> arrived;
   for (std::size_t other = 0; other < instance_.size(); ++other) {

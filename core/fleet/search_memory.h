@@ -19,8 +19,8 @@
 namespace fleetplan::core {
 
 /// The search spaces of the robots, kept from search to search as far as there is memory. Others are
-/// discarded, and computed again when needed. Spaces that are expected to be used last are discarded first;
-/// then those used least recently.
+/// discarded, and computed again when needed. First, the spaces that are expected to be used last are
+/// discarded; then the least recently used ones.
 class SearchSpaces {
  public:
   /// `instance` outlives this object.

@@ -83,7 +83,8 @@ class StaticWays {
   SearchMemory& memory_;
   const Instance& instance_;
   std::vector<Way> ways_;                      // by robot
-  std::vector<std::size_t> closed_by_robots_;  // robots whose way robots close, until one of those leaves
+  std::vector<std::size_t> closed_by_robots_;  // robots whose way robots close, until any of the closing
+                                               // robots leaves
   std::int64_t map_expansions_ = 0;
 };
 

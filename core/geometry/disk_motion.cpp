@@ -201,7 +201,8 @@ Passing estimated_passing(const MovingDisk& mine, const MovingDisk& other) {
   const double x = estimated_nearest_share(by_share);
   const Position gap = by_share.at(x);
   const double t = motion.t_begin + x * (motion.t_end - motion.t_begin);
-  // Where I begin or end, the other one is elsewhere later; at all other times, I am. In between both agree.
+  // Where my move begins or ends, the other disk is elsewhere later; at all other times, my disk is. In
+  // between, both agree.
   const bool is_at_my_end = (x == 0.0 && mine.t_start >= other.t_start) ||  //
                             (x == 1.0 && mine.t_end <= other.t_end);
   const Position speed = is_at_my_end ? velocity_at(other, t) : velocity_at(mine, t);

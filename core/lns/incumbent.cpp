@@ -133,8 +133,8 @@ WorkspacePool::WorkspacePool(PlanState& state, const Incumbent& incumbent, const
   idle_.push_back(std::make_unique<Workspace>(state, incumbent, stop));
 }
 
-/// With a horizon, costs have estimates that depend on the moves, so those before and after would not
-/// compare.
+/// With a horizon, costs contain estimates that depend on the moves. So costs before and after could not be
+/// compared.
 bool WorkspacePool::may_add_moves() const {
   constexpr int kMaxNeighbours = 32;
   if (!options_.any_angle || options_.horizon || options_.connectivity == kMaxNeighbours) return false;

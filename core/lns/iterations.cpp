@@ -98,8 +98,8 @@ void DelayedChoice::learn(std::size_t robot, bool gained) {
 namespace {
 
 constexpr std::array<std::size_t, 5> kSizes{1, 2, 4, 8, 16};
-/// Weighted searches with few expansions find most of what can be found, and fail soon; the others are for
-/// what is left.
+/// Weighted searches with few expansions find most of what can be found, and fail soon. The other searches
+/// are for the rest.
 constexpr std::array<SearchSettings, 3> kLimits{{
     {.heuristic_weight = 1.5, .thorough = false, .max_expansions = 400},
     {.heuristic_weight = 1.5, .thorough = false, .max_expansions = 8'000},
@@ -148,8 +148,8 @@ namespace {
 
 /// A delay below this is rounding, weighted seconds.
 constexpr double kLeastDelay = 1e-9;
-/// The limits of a search that finds the cheapest path that the searches can find, but for what dominance
-/// and estimates lose.
+/// The limits of a search that finds the cheapest path that the searches can find. Dominance and estimates
+/// may lose cheaper paths.
 constexpr SearchSettings kProof{
     .heuristic_weight = 1.0, .suboptimality = 0.0, .suboptimality_growth = 0.0, .dominance_slack = 0.0};
 /// The tries to smooth the path that such a search finds, and the path that the robot has; and seconds: what

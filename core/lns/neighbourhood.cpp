@@ -273,7 +273,7 @@ class NeighbourhoodPlanning {
   Random& random_;
   const StopCondition& stop_;
   std::vector<std::size_t> unplanned_;  // robots of the neighbourhood without a new trajectory
-  std::vector<std::size_t> queue_;      // robots to plan, and those planned already
+  std::vector<std::size_t> queue_;      // robots to plan, and robots planned already
   std::vector<Change::Part> before_;    // trajectories that are replaced for now
   Change change_;
   std::int64_t expansions_ = 0;

@@ -16,7 +16,7 @@
 namespace fleetplan::core {
 namespace {
 
-/// The least gains, seconds: of a change, and of one more stop, as a robot has to drive that.
+/// The least gains, seconds: of a change, and of one more stop, because a robot has to drive it.
 constexpr double kLeastGainOfChange = 1e-4;
 constexpr double kLeastGainOfStop = 0.01;
 /// The longest step of a bend, in lattice spacings; the shortest one is 2^-kHalvings of it.

@@ -25,8 +25,8 @@ constexpr double kStepInDoubt = 2.0;
 /// The next point of a move that is examined is farther than the part known to be clear, by this share of the
 /// last point's clear distance. Usually, the clear disks of both points meet.
 constexpr double kRelaxation = 0.8;
-/// The radius, in cells, below which disks are tested in rectangles of cells, as they fit where the bounds do
-/// not tell.
+/// The radius, in cells, below which disks are tested in rectangles of cells. Such disks fit in places where
+/// the bounds do not tell.
 constexpr double kSmallDisk = 3.0;
 /// The number of columns up to which the exact test of a capsule is cheaper than halving it once more.
 constexpr int kNarrowColumns = 4;

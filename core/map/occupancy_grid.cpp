@@ -89,7 +89,7 @@ class Envelope {
   explicit Envelope(int columns)
       : heights_(static_cast<std::size_t>(columns) + 2), parabolas_(heights_.size()) {}
 
-  /// Replaces the distances along the columns by those in the plane.
+  /// Replaces the distances along the columns by the distances in the plane.
   void transform(std::uint16_t* row) {
     const int last = static_cast<int>(heights_.size()) - 1;
     heights_.front() = heights_.back() = 0;

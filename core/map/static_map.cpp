@@ -74,7 +74,7 @@ class MapCache::Shelf {
     std::size_t hash;
     Map map;
     std::size_t users;
-    std::size_t bytes;  // memory, as of when nobody used it last
+    std::size_t bytes;  // memory, from when it was last used
   };
   using Slot = std::list<Entry>::iterator;
 
@@ -89,8 +89,8 @@ class MapCache::Shelf {
     return found;
   }
 
-  /// Keeps a map, with its first user, unless an equal one is there by now. Returns the place of the map that
-  /// is kept; none if there are too many others with this hash.
+  /// Keeps a map, with its first user, unless an equal map is there by now. Returns the place of the map that
+  /// is kept. None if there are too many others with this hash.
   std::optional<Slot> put(std::size_t hash, const Map& map) {
     const MemoryScope of_no_job(nullptr);
     std::list<Entry> entry{{hash, map, 1, 0}};
@@ -132,7 +132,7 @@ class MapCache::Shelf {
   }
 
  private:
-  /// Maps of one hash; more are made by nobody but who wants to slow the cache down.
+  /// The most maps of one hash. Only an attack on the cache would make more.
   static constexpr std::size_t kMaxOfAHash = 8;
 
   static std::size_t bytes_of(const Entry& entry) { return entry.map->bytes() + kEntryBytes; }

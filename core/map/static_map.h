@@ -62,14 +62,14 @@ std::shared_ptr<const StaticMap> static_map(OccupancyGrid grid, const StopCondit
 /// resolution and all cells are equal. Plans do not depend on it. Thread-safe.
 ///
 /// A map counts on the memory account of every thread that gets it, as if it was made there. The limit of the
-/// cache is for the maps that nobody uses. The least recently used maps are destroyed first.
+/// cache is for maps without users. The least recently used maps are destroyed first.
 class MapCache {
  public:
   struct Stats {
     std::uint64_t hits = 0;    // maps found since the start
     std::uint64_t misses = 0;  // maps not found since the start
     std::size_t maps = 0;
-    std::size_t bytes = 0;  // memory of the maps, those in use included
+    std::size_t bytes = 0;  // memory of the maps, maps in use included
   };
 
   /// Bytes that count for a kept map in addition to its own: the cache's lists and index, and what the

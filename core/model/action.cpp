@@ -9,7 +9,7 @@
 namespace fleetplan::core {
 namespace {
 
-/// What the profile of an action covers in these seconds of it, as a share of the amount of the action.
+/// How much of the action's amount its profile covers in so many seconds, as a share.
 double share_of_profile(const Action& action, double amount, double seconds) {
   const double duration = action.t_end - action.t_start;
   const double covered = covered_after(*action.profile, duration, std::clamp(seconds, 0.0, duration));

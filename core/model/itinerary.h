@@ -40,13 +40,13 @@ struct Itinerary {
   bool is_idle = false;     // it makes way, and has no goals of its own, served or not: it need not move
   double weight = 1.0;      // see Robot::weight
   double goal_age = 0.0;    // seconds, see Robot::goal_age
-  double direct_way = 0.0;  // metres: straight from `pose` through all goals, those served included
+  double direct_way = 0.0;  // metres: straight from `pose` through all goals, served goals included
 
   /// Whether it stays where its committed actions end.
   bool is_parked() const { return goals.empty(); }
   /// Whether it makes way for others after its own goals, or because it has none.
   bool yields() const { return !goals.empty() && goals.back().anywhere; }
-  /// The goals with a pose, those served included.
+  /// The number of goals with a pose, served goals included.
   std::size_t own_goal_count() const { return first_goal + goals.size() - (yields() ? 1 : 0); }
   /// A goal that is left, by its number.
   const Goal& goal(std::size_t number) const { return goals[number - first_goal]; }

@@ -32,10 +32,10 @@ struct OpenGoal {
   std::vector<Alternative> poses;  // at least one
   std::size_t chosen = 0;          // index in `poses`
   bool is_settled = false;         // what the robot has done or is committed to decides
-  bool is_told = false;     // actions that serve the goal do so at the chosen pose, and at no other one
-  double tolerance = 0.0;   // metres: how far from its own position it may be served
-  Position own{0.0, 0.0};   // with a tolerance: that position
-  bool is_widened = false;  // see widen()
+  bool is_told = false;            // actions that serve the goal do so only at the chosen pose
+  double tolerance = 0.0;          // metres: how far from its own position it may be served
+  Position own{0.0, 0.0};          // with a tolerance: that position
+  bool is_widened = false;         // see widen()
 
   bool may_widen() const { return tolerance > 0.0 && !is_widened && !is_settled; }
   /// Whether there is nothing to choose.
@@ -83,9 +83,9 @@ bool stays_at(const Robot& robot, std::size_t goal);
 void settle_by_actions(Robot& robot, std::vector<OpenGoal>& open, std::span<const Action> actions,
                        bool also_last, const StopCondition& stop);
 
-/// Chooses a pose for the first goal that is not settled. `actions` do not serve this goal, as whoever made
-/// them says: they may turn in one pose on their way to another. So the pose is one at which they do not
-/// serve it, preferably the pose where they end. Ends early if `stop` is met.
+/// Chooses a pose for the first goal that is not settled. `actions` do not serve this goal, as the request
+/// says: they may turn in one pose on their way to another. So a pose is chosen at which they do not serve
+/// it, preferably the pose where they end. Ends early if `stop` is met.
 void choose_unserved(Robot& robot, std::vector<OpenGoal>& open, std::span<const Action> actions,
                      const StopCondition& stop);
 

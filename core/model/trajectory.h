@@ -43,7 +43,7 @@ struct Trajectory {
   /// the beginning of the plan.
   bool gains_nothing = false;
   double smoothed_by = 0.0;  // seconds by which it costs less than the path that a search has found
-  bool is_previous = false;  // the motion of Robot::previous: its actions are those received
+  bool is_previous = false;  // the motion of Robot::previous: its actions are the received ones
 
   Position end() const { return moves.empty() ? start : moves.back().path.to; }
 };

@@ -44,7 +44,7 @@ SearchResult EjectionSearch::plan(std::size_t robot, Robots planned, const std::
   return state_.plan_ignoring(robot, planned, {}, stop_);
 }
 
-/// Sorts robots so that those to be ejected first come first; equals are in random order.
+/// Sorts robots by ejection: the first to be ejected come first. Equal robots are in random order.
 void EjectionSearch::sort_by_ejection(Robots& planned, const std::vector<int>& failures) {
   random_.shuffle(planned);
   std::stable_sort(planned.begin(), planned.end(), [&](std::size_t a, std::size_t b) {

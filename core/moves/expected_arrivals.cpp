@@ -31,8 +31,8 @@ constexpr double kWeight = 1.1;
 constexpr std::int64_t kMaxExpansions = 400;
 /// Expansions or passages between two checks of the stop condition.
 constexpr std::size_t kStopStride = 64;
-/// Rank by which a robot is behind those who pass its goal, and how often ranks are raised because of others
-/// whose ranks were raised. Robots that wait for each other never come to an end.
+/// Rank by which a robot is behind the robots that pass its goal. Then, how often ranks are raised because
+/// the ranks of other robots were raised: robots that wait for each other never come to an end.
 constexpr double kBehind = 1e-6;
 constexpr int kMaxSweeps = 8;
 
@@ -72,7 +72,7 @@ class ExpectedArrivals {
     if (!find_ways_alone(stop)) return {robots_, stop.met()};
     PriorityOrder order = robots_;
     std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return rank(a) < rank(b); });
-    std::vector<PriorityOrder> passing(instance_.size());  // by robot: those who pass its goal
+    std::vector<PriorityOrder> passing(instance_.size());  // by robot: the robots that pass its goal
     for (std::size_t k = 0; k < order.size() && !is_memory_full(); ++k) {
       const std::size_t robot = order[k];
       if (stop.met() || !choose_way(robot, stop)) break;
@@ -130,7 +130,7 @@ class ExpectedArrivals {
     return other.has_way ? std::max(0.0, kAmongOthers * passage.t_end - other.arrival) : 0.0;
   }
 
-  /// Ranks each robot behind those who pass its goal.
+  /// Ranks each robot behind the robots that pass its goal.
   std::vector<double> ranks_behind(const std::vector<PriorityOrder>& passing) const {
     std::vector<double> ranks(instance_.size(), 0.0);
     for (const std::size_t robot : robots_) ranks[robot] = rank(robot);

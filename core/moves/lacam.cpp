@@ -276,7 +276,8 @@ class NextConfiguration {
     return kNobody;
   }
 
-  /// The ways on from a vertex but for the one back; dead ends that robots have reached for good are none.
+  /// The ways on from a vertex, except the way back. Dead ends that robots have reached for good do not
+  /// count.
   struct WaysOn {
     int count = 0;
     int last = StepProblem::kNone;
@@ -357,7 +358,7 @@ class NextConfiguration {
 /// A fleet on a graph, see ConfigurationSearch.
 class FleetOnGraph {
  public:
-  /// `alone` are the distances by kStep, `with_traffic` those by against_traffic().
+  /// `alone`: the distances by kStep. `with_traffic`: the distances by against_traffic().
   FleetOnGraph(const StepProblem& problem, const StepDistances& alone, const StepDistances& with_traffic,
                Random& random, const StopCondition& stop)
       : problem_(problem), alone_(alone), with_traffic_(with_traffic), next_(problem, random, stop) {
@@ -386,7 +387,7 @@ class FleetOnGraph {
   std::optional<Configuration> next(const Configuration& from, const std::vector<std::size_t>& order,
                                     const std::vector<StepConstraint>& constraints, std::size_t constraint,
                                     std::size_t depth) {
-    // In the end, those who still wait for each other have to pass against the traffic.
+    // In the end, robots that still wait for each other have to pass against the traffic.
     return next_.make(from, order, constraints, constraint, depth < longest_ ? with_traffic_ : alone_);
   }
 

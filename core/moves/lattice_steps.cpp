@@ -199,7 +199,7 @@ class TimedSteps {
 
   /// The time from which on a robot may set out on a step to a vertex, after the last robot that was there.
   double free_from(const Vertex& vertex, const std::vector<TimedSegment>& step, double radius) const {
-    double t = vertex.others_until;  // they may be wider than the last one
+    double t = vertex.others_until;  // robots before the last one, which may be wider than it
     if (vertex.last.phases.empty()) return t;
     const double reach = radius + vertex.last.radius;
     const Position& here = step.back().path.to;

@@ -17,7 +17,7 @@ constexpr std::int64_t kMaxSearchExpansions = 20'000;
 constexpr int kSitesOfAMove = 6;  // to both sides of the nearest one
 constexpr std::size_t kMaxSites = 12;
 /// How much farther than in contact the two robots pass, where there is room for it. In contact, each would
-/// have to wait until the other one is beside it.
+/// have to wait until the other robot is beside it.
 constexpr double kPassingDistance = 1.1;
 /// Bisections of the distance to a wall: more exact than a millimetre, for robots of up to a kilometre.
 constexpr int kBisections = 20;
@@ -91,8 +91,8 @@ class MakingRoom {
     return instance_.body(a).pair_radius + instance_.body(b).pair_radius;
   }
 
-  /// Where two robots that know nothing of each other first meet, as seen by the first one; none if they do
-  /// not.
+  /// Where two robots that ignore each other first meet, as seen by the first robot. None if they do not
+  /// meet.
   std::optional<Site> meeting(std::size_t first, std::size_t second, const std::vector<Trajectory>& alone) {
     const double required = reach(robots_[first], robots_[second]) - kSearchSlack;
     const std::vector<TimedSegment> mine = timed_segments(alone[first]);

@@ -21,7 +21,7 @@ std::size_t permutations(std::size_t count, std::size_t limit) {
   return std::min(product, limit);
 }
 
-/// Moves robots that have arrived to the end, and the one whose goal is the oldest to the front.
+/// Moves robots that have arrived to the end, and the robot whose goal is the oldest to the front.
 void order_for_horizon(const std::vector<Itinerary>& all, PriorityOrder& order) {
   // No search fails that may end with a wait, so no robot would be raised above one in its way for good.
   const auto end = std::stable_partition(order.begin(), order.end(),

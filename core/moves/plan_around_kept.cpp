@@ -116,7 +116,7 @@ class PlanningAroundKept {
     return outcome == StepsOutcome::followed;
   }
 
-  /// Returns the robots by priority, those with trajectories first.
+  /// Returns the robots by priority. Robots with trajectories come first.
   PriorityOrder order() {
     PriorityOrder order = initial_order(state_.instance(), movers_, random_);
     std::stable_partition(order.begin(), order.end(),
@@ -240,7 +240,7 @@ class PlanningAroundKept {
     }
   }
 
-  /// Plans robots again: those whose first trajectories are free follow them, the others are planned around
+  /// Plans robots again. Robots whose first trajectories are free follow them; the others are planned around
   /// these. Returns whether all are planned.
   bool returned_together(const std::vector<std::size_t>& robots) {
     for (const std::size_t robot : robots) reservations_.remove(robot);

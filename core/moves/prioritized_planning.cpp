@@ -217,8 +217,8 @@ class PrioritizedPlanning {
     return trajectory && trajectory->stops_at;
   }
 
-  /// Plans all robots in steps, to their goals, beyond the horizon: that plan is kept until somebody has a
-  /// new goal, so that everybody arrives. If there is none, says so of this robot.
+  /// Plans all robots in steps, to their goals, beyond the horizon. This plan is kept until any robot has a
+  /// new goal, so that all robots arrive. If there is no such plan, says so of this robot.
   void plan_whole_ways(std::size_t robot) {
     if (steps_succeed({}, stop_) || result_.is_limited || result_.cut_off) return;
     PrioritizedResult::Shuttling shuttling{robot, {}};

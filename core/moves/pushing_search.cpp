@@ -108,7 +108,7 @@ class FleetOnPlaces {
     return agrees_with_decided(move_of(robot));
   }
 
-  /// Moves those away who are in the way of a move.
+  /// Moves robots away that are in the way of a move.
   bool push_away(const Move& move) {
     if (move.rests()) return true;
     for (std::size_t other = 0; other < to_.size(); ++other) {

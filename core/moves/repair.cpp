@@ -17,8 +17,8 @@ namespace {
 /// The failures of a robot after which it is given up. In the paper's halls with 300 robots none failed more
 /// than 5 times.
 constexpr int kMaxFailuresOfRobot = 40;
-/// How often robots that yield are asked to make way for one robot. It may be in a cycle with others after
-/// that, which changes of the order break.
+/// How often robots that yield are asked to make way for one robot. After that, it may be in a cycle with
+/// others, which changes of the order break.
 constexpr int kMaxAsksForRobot = 5;
 /// The failures of a robot after which others are no longer ejected for it. It may be in a cycle that only a
 /// start delay breaks. In crowds that fill two fifths of the floor, hardly any robot fails so often.
@@ -136,7 +136,7 @@ class Repair {
            state_.expansions() - expansions_ > robots * kExpansionsBeforeSteps;
   }
 
-  /// Returns whether all robots but the hopeless ones have new trajectories; if not, nothing has changed.
+  /// Returns whether all robots except the hopeless ones have new trajectories. If not, nothing has changed.
   bool plans_all_in_steps() {
     const StepsOutcome outcome = std::exchange(steps_, nullptr)->follow(order_, result_.hopeless, stop_);
     result_.steps = outcome;
@@ -232,8 +232,8 @@ class Repair {
   }
 
   /// Plans a robot past robots that yield, if that is worth it compared to its trajectory around them. The
-  /// yielding robots in its way are planned again; those without goals of their own come after all others.
-  /// Returns whether the robot has a plan now.
+  /// yielding robots in its way are planned again. Among them, robots without goals of their own come after
+  /// all others. Returns whether the robot has a plan now.
   bool passes_yielding(std::size_t robot, const SearchResult& in_place) {
     ++asks_[robot];
     SearchSettings settings = quick_search_of(robot);
@@ -296,8 +296,8 @@ class Repair {
     return ejection_.plan(robot, planned_robots([](std::size_t) { return true; }), failures_);
   }
 
-  /// Plans a robot among fewer others; see repair_all(). Smaller robots are ignored before larger ones, as
-  /// they find another path more easily.
+  /// Plans a robot among fewer others; see repair_all(). Smaller robots are ignored before larger ones,
+  /// because they find another path more easily.
   SearchResult plan_among_fewer(std::size_t robot) {
     const double radius = state_.instance().body(robot).pair_radius;
     const auto is_lower = [&](std::size_t other) { return rank_[other] > rank_[robot]; };
@@ -374,7 +374,7 @@ class Repair {
   std::vector<int> failures_;                 // by robot
   std::vector<int> asks_;                     // by robot: how often others were asked to make way for it
   std::vector<bool> cannot_make_way_;         // by robot: it was asked, and failed
-  std::optional<std::size_t> keeps_its_way_;  // a robot that gives way to nobody
+  std::optional<std::size_t> keeps_its_way_;  // a robot that does not give way to any other
   EjectionSearch ejection_;
   const std::int64_t expansions_;                           // before these repairs
   std::set<std::pair<std::int64_t, std::size_t>> pending_;  // rank, robot

@@ -140,7 +140,7 @@ class SafePlanner {
   ProgressReport& progress_;
   std::vector<bool> has_no_path_;                      // by robot, according to its last search
   std::vector<std::optional<Trajectory>> earlier_;     // trajectories of robots that were stopped
-  std::vector<std::vector<std::size_t>> waiting_for_;  // by robot: those stopped for crossing its start
+  std::vector<std::vector<std::size_t>> waiting_for_;  // by robot: the robots stopped for crossing its start
   std::vector<std::size_t> staying_;
   SafePlan result_;
 };

@@ -12,7 +12,7 @@ namespace {
 /// The lines of vertices that have no branch, from one end to the other. Robots on a line keep their order.
 class Lines {
  public:
-  /// If `stop` is met, what is known of them is of no use.
+  /// If `stop` is met, the result is incomplete and must not be used.
   Lines(const StepProblem& problem, const StopCondition& stop) {
     StopStride stride(stop, StepProblem::kVerticesBetweenPolls);
     add_neighbours(problem, stride);

@@ -28,7 +28,7 @@ struct StepPlaces {
     double radius = 0.0;      // metres, to other robots
     std::uint32_t stage = 0;  // goals that are served
     std::uint32_t first = 0;  // of the steps
-    float to_go = 0.0F;       // metres to the last goal, through those before it; kForever: no way
+    float to_go = 0.0F;       // metres to the last goal, through the goals before it; kForever: no way
   };
 
   std::vector<Place> places;  // the start is the first one

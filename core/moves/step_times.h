@@ -15,7 +15,7 @@ namespace fleetplan::core {
 /// The steps of robots from each configuration to the next.
 struct StepSequence {
   std::vector<Configuration> configurations;
-  std::vector<double> departures = {};  // seconds: nobody sets out sooner, by step; empty: at any time
+  std::vector<double> departures = {};  // seconds, by step: no robot sets out sooner; empty: at any time
   double earliest = 0.0;                // seconds: nobody turns sooner
 };
 

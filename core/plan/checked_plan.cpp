@@ -15,8 +15,8 @@ bool moves(const RobotPlan& plan, const Problem& problem) {
   return plan.actions.size() > problem.robots()[plan.robot].committed.size();
 }
 
-/// Returns what is left of a plan when all robots that would move stay at their starts, or at the end of what
-/// is committed.
+/// Returns the rest of a plan when all robots that would move stay at their starts, or at the end of their
+/// commitments.
 Plan without_moves(const Plan& plan, const Problem& problem, const StopCondition& stop) {
   Plan left;
   left.deterministic = false;

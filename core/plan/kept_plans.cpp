@@ -168,7 +168,7 @@ class PlansThatHold {
     return violation.t_begin.value_or(violation.t) < robots_[robot].committed_until();
   }
 
-  /// Keeps, of conflicting plans, those with the higher priorities.
+  /// Keeps, of conflicting plans, the plans with the higher priorities.
   void leave_out_lower(std::vector<Pair> conflicts) {
     const std::vector<std::size_t> rank = ranks();
     for (auto& [higher, lower] : conflicts) {

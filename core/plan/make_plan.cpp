@@ -148,7 +148,7 @@ class PlanMaker {
     }
   }
 
-  /// Returns the plan, or one with other poses for open goals in which fewer robots are unplanned.
+  /// Returns the plan, or a plan with other poses for open goals in which fewer robots are unplanned.
   Attempt with_other_poses(Attempt best) {
     for (int k = 0; best.task.open && !best.plan.unplanned.empty() && k < kMaxSecondChoices; ++k) {
       PlanTask other = best.task;

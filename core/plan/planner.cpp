@@ -83,8 +83,8 @@ StopCondition with_least_time(const StopCondition& stop) {
   return stop.until(Clock::now() + budget::kLeastAroundKept);
 }
 
-/// Whether all robots keep their previous plans, and no search can change that. A robot with a goal that
-/// stays nevertheless, as no plan is possible, may be in the way of others.
+/// Whether all robots keep their previous plans, and no search can change that. A robot with a goal may stay
+/// because no plan is possible. It may then be in the way of others.
 bool is_final(const KeptPlans& previous, const Problem& problem, const PlanOptions& options,
               const StopCondition& stop) {
   const bool may_improve =
@@ -137,7 +137,8 @@ PrioritizedResult first_plan(PlanState& state, const KeptPlans& previous,
 }
 
 /// Returns the robots that large neighbourhood search may plan again. A way that is planned beyond the
-/// horizon costs more than what is estimated there, which would be in vain where others stand.
+/// horizon costs more than its estimate. The cheaper estimate would not help if other robots stand in the
+/// way.
 std::vector<std::size_t> changeable_robots(const PlanState& state, std::vector<std::size_t> movers) {
   if (const auto& whole = state.whole_way_of()) std::erase(movers, *whole);
   if (state.instance().options().replan == PlanOptions::Replan::where_needed) {

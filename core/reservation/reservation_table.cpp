@@ -128,7 +128,7 @@ class ReservationTable::DelayedMove {
     return false;
   }
 
-  /// Whether they only touch, up to rounding: the other one may have been planned to pass just behind.
+  /// Whether they only touch, up to rounding. The other robot may have been planned to pass just behind.
   bool is_outside(const UnsafeInterval& hit) const {
     return mine_.t_start <= hit.begin + kSameTime || hit.end <= mine_.t_start;
   }

@@ -9,7 +9,7 @@ namespace {
 /// More classes cost memory and time to reserve, fewer cost longer bucket lists.
 constexpr std::size_t kMaxClasses = 6;
 /// The side of a bucket in cells, and in typical radii. With smaller buckets, a disk is entered into more of
-/// them, and a move visits more; larger ones have longer lists.
+/// them, and a move visits more. Larger buckets have longer lists.
 constexpr double kSideRatio = 2.0;
 /// Buckets of all classes together, and of them for each robot, to bound memory and time on huge maps.
 constexpr double kMaxBuckets = 2.5e5;

@@ -15,7 +15,7 @@
 // their direct callers.
 #ifndef FLEETPLAN_THREAD_SANITIZER
 
-// All forms are replaced, also those whose defaults call others: the forms of a sanitizer do not.
+// All forms are replaced, even forms whose defaults call others, because the forms of a sanitizer do not.
 // NOLINTBEGIN(cppcoreguidelines-no-malloc, cppcoreguidelines-owning-memory, misc-new-delete-overloads)
 
 namespace {

@@ -71,8 +71,8 @@ class PathEnd {
     const double growth = limits_.suboptimality_growth * static_cast<double>(expansions);
     return entry_cost_ <= (1.0 + (limits_.suboptimality + growth)) * min_f;
   }
-  /// Whether no entry has a clearly smaller f than the best label to rest at. What is accepted relates to the
-  /// time up to the horizon, as the way beyond it is the same for all.
+  /// Whether no entry has a clearly smaller f than the best label to rest at. The accepted difference relates
+  /// to the time up to the horizon, because the way beyond it is the same for all entries.
   bool rest_suffices(double min_f, std::int64_t expansions) const {
     if (rest_ == LabelId::none) return false;
     const double growth = kRestGrowth * limits_.suboptimality_growth * static_cast<double>(expansions);
@@ -271,7 +271,8 @@ void Search::label_start() {
   int interval = state_.places[start].first_interval;
   while (interval < end && state_.intervals[interval].end < t_begin) ++interval;
   if (interval == end || !state_.intervals[interval].contains(t_begin)) return;
-  // A robot that serves all where it begins and may stay there for good does so at once, whatever the delay.
+  // A robot that serves all goals where it begins and may stay there for good does so at once, whatever the
+  // delay.
   const bool stays = goals_.is_end(start, interval) ||
                      (space_.all_goals_at_start() && state_.intervals[interval].end == kForever);
   const double t = stays ? t_begin : t_begin + limits_.start_delay;

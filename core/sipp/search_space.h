@@ -115,7 +115,7 @@ class SearchSpace {
   bool begins_in_goal_pose_ = false;
   std::size_t goals_at_start_ = 0;                      // the first so many, which need no move
   std::vector<std::size_t> first_equal_;                // by goal
-  std::vector<std::unique_ptr<CostToGo>> costs_to_go_;  // by goal, of the first of equal ones
+  std::vector<std::unique_ptr<CostToGo>> costs_to_go_;  // by goal; equal goals use the first of them
 };
 
 }  // namespace fleetplan::core

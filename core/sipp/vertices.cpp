@@ -133,7 +133,7 @@ int OwnVertices::add(const OwnVertex& own, double reach) {
   return id;
 }
 
-/// Adds an own vertex with links to those within `reach` metres.
+/// Adds an own vertex with links to the vertices within `reach` metres.
 int OwnVertices::add_linked(OwnVertex own, double reach) {
   std::vector<int> all = lattice_.vertices_near(own.position, reach);
   for (const int near : finer_.near(own.position, reach)) all.push_back(near);

@@ -117,7 +117,7 @@ class OwnVertices {
   int end_inside_ = 0;
   int outside_ = -1;
   int never_entered_ = -1;  // the start, if it is too near to a wall
-  int never_left_ = -1;     // the last goal, if it is so
+  int never_left_ = -1;     // the last goal, if it is too near to a wall
 };
 
 /// The vertices that the robot may stop at, and the straight moves between them. There are three kinds:

@@ -92,7 +92,7 @@ class Assignment {
     offer(real_ + row);
   }
 
-  /// There is one, as the row that was added may have none.
+  /// There always is a column, because the row that was added may have none.
   std::size_t nearest() const {
     std::size_t nearest = kNone;
     for (std::size_t column = 0; column < distance_.size(); ++column) {

@@ -160,7 +160,7 @@ class TimesAlone {
   Executor& executor_;
 };
 
-/// The zones for robots of which each stands for one of others, see leave_out_blocked_poses().
+/// The zones for robots each of which stands for another robot, see leave_out_blocked_poses().
 std::vector<Zone> zones_of(const std::vector<Zone>& zones, const std::vector<std::size_t>& stands_for,
                            const StopCondition& stop) {
   std::vector<Zone> all = zones;
@@ -202,7 +202,7 @@ class PoseCheck {
     zones_ = zones_of(zones, stands_for_, stop);
   }
 
-  /// By pose: the disk overlaps an obstacle or a blocked zone that nobody may leave.
+  /// By pose: whether the disk overlaps an obstacle, or a blocked zone that may not be left.
   std::vector<bool> blocked() const {
     std::vector<Robot> disks = disks_;
     // Bounded: the poses of open goals.
@@ -210,7 +210,7 @@ class PoseCheck {
     return faulty(std::move(disks), zones_, [](const ProblemFault&) { return true; });
   }
 
-  /// By pose: a goal there would be put off, because of a zone that nobody enters.
+  /// By pose: whether a goal there would be put off, because of a zone that no robot may enter.
   std::vector<bool> closed() const {
     std::vector<Zone> zones = zones_;
     std::erase_if(zones,

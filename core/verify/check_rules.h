@@ -155,7 +155,7 @@ class ViolationList {
   void sort_and_cut();
 
   std::vector<Violation> kept_;  // at most twice as many as are kept in the end
-  bool was_cut_ = false;  // the first kMaxViolations are in order, and later ones than these not wanted
+  bool was_cut_ = false;         // the first kMaxViolations are in order; later ones are not wanted
   std::size_t total_ = 0;
 };
 

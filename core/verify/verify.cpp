@@ -91,8 +91,8 @@ std::optional<double> leaves_overlap(const ExecutedFleet& fleet, const Overlap& 
   return overlap.distance >= least - tolerance ? std::optional(until) : std::nullopt;
 }
 
-/// The overlaps that are listed in addition for each robot, so that allowed ones, with which robots start, do
-/// not hide others.
+/// The overlaps that are listed in addition for each robot, so that allowed overlaps at starts do not hide
+/// others.
 constexpr std::size_t kNearStartsPerRobot = 64;
 
 std::string overlap_text(const Overlap& overlap, double contact, const std::string& what) {
@@ -312,7 +312,7 @@ class FleetCheck {
     }
   }
 
-  /// A robot some of whose goals are put off, see Zone::may_leave: it visits those before them and may rest
+  /// A robot with goals that are put off, see Zone::may_leave. It visits the goals before them and may rest
   /// where its plan ends.
   struct PutOff {
     Robot robot;

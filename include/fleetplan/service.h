@@ -27,7 +27,7 @@ enum class Endpoint {
   import_vda5050,  // POST /v1/import/vda5050
 };
 
-/// What a single request may ask for. The defaults equal the service's. The names are those in GET
+/// What a single request may ask for. The defaults equal the service's. The names are the names in GET
 /// /v1/limits, and details of errors use them.
 struct ServiceLimits {
   /// The budget of a request that names none, and the largest budget of any request. A longer budget is

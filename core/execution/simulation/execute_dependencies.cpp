@@ -35,10 +35,10 @@ std::optional<double> time_reached(const ExecutedProgress& progress, const Actio
   return before.t + elapsed_share(part, found->ramp) * (found->t - before.t);
 }
 
-/// Lets every robot go on as far as it is known to be allowed, until nobody can. Robots whose speed changes
-/// at once run ahead of the others: whatever becomes known later, they stop at a gate only when they are
-/// there. Robots that have to brake for a gate drive in the order of time: what is ahead of them depends on
-/// what opens meanwhile.
+/// Lets every robot go on as far as it is known to be allowed, until no robot can. Robots whose speed changes
+/// at once run ahead of the others, because they stop at a gate only when they are there, whatever becomes
+/// known later. Robots that have to brake for a gate drive in the order of time, because what is ahead of
+/// them depends on gates that open meanwhile.
 class DependentExecution {
  public:
   DependentExecution(const PlannedExecution& planned, const std::vector<DisturbedActions>& disturbed,
@@ -125,7 +125,7 @@ class DependentExecution {
     for (Robot& robot : robots_) {
       for (std::vector<Mark>* marks : {&robot.gates, &robot.awaited}) {
         if (stops_after(marks->size())) return false;
-        // As a rule they are, and so are any number of the same ones.
+        // Usually they are sorted already, and so are any number of equal marks.
         if (std::is_sorted(marks->begin(), marks->end(), is_earlier)) continue;
         std::stable_sort(marks->begin(), marks->end(), is_earlier);
       }

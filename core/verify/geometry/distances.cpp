@@ -232,7 +232,7 @@ class ObstacleField::NearestCellSearch {
     } else {
       one.last_row = other.first_row = std::midpoint(tiles.first_row, tiles.last_row);
     }
-    // The nearer half comes first, as its result may exclude the other one.
+    // The nearer half comes first, because its result may exclude the other half.
     if (distance_bound(field_.rectangle(field_.cells_of(other))) <
         distance_bound(field_.rectangle(field_.cells_of(one)))) {
       std::swap(one, other);
@@ -246,7 +246,7 @@ class ObstacleField::NearestCellSearch {
   }
 
  private:
-  /// Looks at the blocked cells one by one: those beside each other in a row as one rectangle.
+  /// Looks at the blocked cells one by one. Cells beside each other in a row count as one rectangle.
   void visit_cells(const Block& cells) {
     // Bounded: the cells of a tile.
     for (int row = cells.first_row; row < cells.last_row; ++row) {

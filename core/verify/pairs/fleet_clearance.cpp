@@ -13,7 +13,8 @@ namespace {
 
 // The least number of windows: with fewer, plans of few actions would have long windows with large boxes.
 constexpr std::size_t kFewestWindows = 64;
-// The greatest number of windows: more would cost more than they save, as each window visits every robot.
+// The greatest number of windows. More would cost more than they save, because each window visits every
+// robot.
 constexpr std::size_t kMaxWindows = 4096;
 constexpr std::size_t kWindowsPerLeg = 2;
 

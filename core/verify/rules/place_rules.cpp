@@ -91,7 +91,8 @@ class Overlaps {
     while (planned_ < legs.size() && handover.commits(legs[planned_].t_end)) ++planned_;
   }
 
-  /// A robot that begins nearer, or is so when its commitment ends, comes no nearer until it is clear.
+  /// A robot that begins too near, or is too near when its commitment ends, comes no nearer until it is
+  /// clear.
   void let_leave() {
     double reduced = kNone;  // the distance that it keeps until it has been clear
     for (std::size_t k = 0; k < legs_.size(); ++k) {

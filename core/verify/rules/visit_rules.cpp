@@ -107,7 +107,7 @@ class VisitCheck {
     return std::move(violations_);
   }
 
-  /// Counts the goals before the last one that are served.
+  /// Counts the served goals, without the last goal.
   std::size_t count_served() {
     serve();
     return served_.size();
