@@ -93,10 +93,11 @@ void announce(const Settings& settings, const HttpServer& server, const RequestL
 }
 
 /// Ends the service in this order, so that no accepted request is lost:
-/// 1. not ready, but serving, for --drain-delay-ms: load balancers stop sending requests;
-/// 2. new jobs are rejected, accepted ones get --drain-ms to finish;
-/// 3. jobs that still run are cancelled and answer with what they have;
-/// 4. if one does not, the process ends with an error.
+///
+/// 1. It is not ready, but still serves, for --drain-delay-ms. Load balancers stop sending requests.
+/// 2. New jobs are rejected. Accepted jobs get --drain-ms to finish.
+/// 3. Jobs that still run are cancelled and answer with what they have.
+/// 4. If a job does not end, the process ends with an error.
 void drain(HttpServer& server, const Settings& settings, const EndSignals& signals, const RequestLog& log) {
   server.announce_end();
   signals.linger(settings.drain_delay);

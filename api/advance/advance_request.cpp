@@ -101,7 +101,7 @@ std::optional<std::size_t> parse_action_number(const JsonReader& member, const c
   return std::nullopt;
 }
 
-/// A measured position without a heading has the planned one.
+/// A measured position without a heading has the planned heading.
 std::optional<core::Pose> parse_measured_at(const JsonReader& entry, const WorldFrame& frame,
                                             const core::Pose& planned) {
   const JsonReader theta_member = entry.find("theta");
@@ -494,7 +494,7 @@ void write_place(JsonWriter& json, std::string_view key, const core::ActionPlace
   json.end_object();
 }
 
-/// The options as given, with those without which robots could not be where they are.
+/// The options as given. Adds options without which robots could not be where they are.
 void write_options(JsonWriter& json, const std::optional<JsonValue>& given,
                    const core::Circumstances& circumstances) {
   json.key("options").begin_object();

@@ -164,7 +164,7 @@ std::size_t cells_of(const core::OccupancyGrid& grid) {
   return static_cast<std::size_t>(grid.columns()) * static_cast<std::size_t>(grid.rows());
 }
 
-/// How much is to be computed: a search of the map for each goal, and a short one for each way.
+/// The amount of work: a search of the map for each goal, and a short search for each way.
 struct TravelWork {
   std::size_t ways = 0;
   std::size_t goals = 0;
@@ -183,8 +183,8 @@ struct TravelWork {
   }
 };
 
-/// The computation of travel times for one request, in its turn. A reply that it has instead of an answer is
-/// kept until the reading of the body has ended.
+/// The computation of travel times for one request, in its turn. If it has a reply instead of an answer, it
+/// keeps the reply until the reading of the body has ended.
 class Travelling {
  public:
   Travelling(const RequestContext& context, core::Work& work) : context_(context), work_(work) {}

@@ -21,7 +21,7 @@ namespace {
 /// The memory, in bytes, above which a reply keeps it: less is freed at once, within about a millisecond.
 constexpr std::int64_t kMuchMemory = 4 << 20;
 
-/// The longest body, in bytes, of a check or a conversion that takes milliseconds, as a rule.
+/// The longest body, in bytes, of a check or a conversion that usually takes milliseconds.
 constexpr std::size_t kShortBody = 1 << 20;
 
 }  // namespace

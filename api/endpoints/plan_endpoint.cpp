@@ -161,7 +161,7 @@ std::chrono::nanoseconds kept_for_answer(const PlanRequest& request, const core:
   return request.dependencies.wanted ? kept + core::budget::for_dependencies(measure) : kept;
 }
 
-/// Returns what the request needs of the server. A few robots on a small map take milliseconds, as a rule.
+/// Returns what the request needs of the server. A few robots on a small map usually take milliseconds.
 TurnNeed need_of(const PlanRequest& request, const core::StopCondition& stop, const RequestContext& context) {
   constexpr std::ptrdiff_t kFewRobots = 16;
   constexpr int kFewCells = 100'000;

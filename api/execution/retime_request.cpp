@@ -126,7 +126,7 @@ std::optional<RetimeRequest> parse_retime_request(const JsonReader& root, const 
 
 namespace {
 
-/// Returns the new time of a planned one; none if that is past.
+/// Returns the new time of a planned time; none if the planned time is past.
 std::optional<double> new_time(const core::Pace& pace, const core::RetimedRobot& retimed, double planned) {
   const double progress = pace.progress_at(planned);
   const auto action = static_cast<std::size_t>(progress);

@@ -63,7 +63,7 @@ core::Disturbance::CrossTrack parse_cross_track(const JsonReader& member) {
           json.require("correlation_length").number(kLength).value_or(1.0)};
 }
 
-/// Reads the member `disturbance` of a request to simulate; what is left out disturbs nothing.
+/// Reads the member `disturbance` of a request to simulate. Missing members disturb nothing.
 core::Disturbance parse_disturbance(const JsonReader& member) {
   core::Disturbance disturbance;
   const JsonReader json = member.object(kDisturbanceMembers);
@@ -76,7 +76,7 @@ core::Disturbance parse_disturbance(const JsonReader& member) {
   return disturbance;
 }
 
-// What answers have beside the plans is ignored, but for `dependencies`.
+// Members of answers beside the plans are ignored, except `dependencies`.
 constexpr std::array<std::string_view, 7> kSimulationMembers{"plans", "policy", "max_delay", "disturbance",
                                                              "runs",  "seed",   "trace"};
 constexpr auto kSimulateRequestMembers =
@@ -88,7 +88,7 @@ constexpr std::array<std::string_view, 4> kPolicies{"open_loop", "absorb_waits",
 constexpr std::size_t kDefaultRuns = 100;
 constexpr std::uint64_t kMaxSimulationSeed = std::numeric_limits<std::uint64_t>::max();  // like the options'
 
-/// Removes the gaps within the tolerance between the actions of each plan, and reports larger ones.
+/// Removes the gaps within the tolerance between the actions of each plan, and reports larger gaps.
 void join_actions(const JsonReader& member, const std::vector<core::Robot>& robots,
                   std::vector<core::RobotPlan>& plans) {
   auto plan = plans.begin();

@@ -82,7 +82,7 @@ Location locate(const JsonValue& root, const JsonValue& value) {
 namespace {
 
 constexpr std::size_t kLongestQuote = 64;  // bytes
-constexpr std::size_t kLongestWord = 32;   // longer ones are no typing mistakes of a key
+constexpr std::size_t kLongestWord = 32;   // longer words are not typing mistakes of a key
 
 std::string lower(std::string_view text) {
   std::string lowered(text);

@@ -124,7 +124,7 @@ void JsonWriter::append_string(std::string_view text) {
   text_ += '"';
 }
 
-// The recursion ends, as the depth of a document is limited when it is read.
+// The recursion ends, because the depth of a document is limited when it is read.
 namespace {
 
 enum class Nulls : std::uint8_t { kept, left_out };

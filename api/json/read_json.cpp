@@ -67,7 +67,7 @@ class DuplicateKeys {
     }
   }
 
-  /// Sorts members by key, and equal ones in the order of the document. Returns false if it was stopped.
+  /// Sorts members by key. Equal members stay in the order of the document. Returns false if it was stopped.
   bool sort(std::vector<Member>& members) {
     const auto before = [this](const Member& a, const Member& b) {
       if (a.hash != b.hash) return a.hash < b.hash;

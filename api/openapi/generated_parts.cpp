@@ -140,7 +140,7 @@ constexpr std::array<Response, 15> kResponses{{
     {503, "Unavailable", "Retry-After", "RetryAfter"},
 }};
 
-/// An answer of the service. The tests compare it with real ones.
+/// An example of an error response. The tests compare it with real answers.
 struct ProblemExample {
   ErrorCode code;
   std::string_view detail;

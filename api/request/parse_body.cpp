@@ -40,7 +40,7 @@ std::optional<Entry> parse_entry(const JsonReader& item, const WorldFrame& frame
   return Entry{*t, frame.to_map({*x, *y})};
 }
 
-/// Reports an entry that is not later than the one before, or too far from it.
+/// Reports an entry that is not later than the previous entry, or too far from it.
 void check_order(const Entry& before, const Entry& entry, const JsonReader& item) {
   const double duration = entry.t - before.t;
   if (duration <= 0.0) {

@@ -303,7 +303,7 @@ Result<PlanRequest, RequestError> parse_request(std::string_view body, const Lim
 
 namespace {
 
-// What answers have beside the plans is ignored, but for `unavoidable`.
+// Members of answers beside the plans are ignored, except `unavoidable`.
 constexpr auto kValidateRequestMembers = joined(
     kFleetMembers, std::array<std::string_view, 2>{"plans", "tolerance"}, kPlanAnswerMembers, kAddedMembers);
 
@@ -319,8 +319,8 @@ std::chrono::nanoseconds check_budget(ParsedOptions options, const Limits& limit
   return effective_budget(options, limits);
 }
 
-/// Returns the rules of a check. Inflation and added waits are left out, as they are the planner's business:
-/// plans are checked with bare radii.
+/// Returns the rules of a check. Inflation and added waits are left out, because they matter only to the
+/// planner: plans are checked with bare radii.
 core::CheckRules rules_of(const core::PlanOptions& options,
                           std::vector<core::UnavoidableCollision> collisions) {
   core::CheckRules rules;

@@ -18,7 +18,8 @@ bool is_finite(const JsonValue& value) {  // NOLINT(misc-no-recursion)
   return true;
 }
 
-/// The text of a member without spaces; an empty one if it is at fault. `what` is it one of, for messages.
+/// The text of a member without spaces; an empty text if it has a fault. `what`: what the member is, for
+/// messages.
 std::string text_of_member(const JsonReader& member, std::string_view name, std::string_view what) {
   if (!is_finite(member.value())) {
     member.fault(fault::kOutOfRange, std::string(name) + " has a number that is too large for a double.");

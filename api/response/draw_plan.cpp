@@ -36,7 +36,7 @@ class Picture {
           << "\" fill=\"#fff\" stroke=\"#555\" stroke-width=\"" << std::max(width, height_) / 500 << "\"/>\n";
   }
 
-  /// Draws the blocked cells; those beside each other in a row become one rectangle.
+  /// Draws the blocked cells. Cells beside each other in a row become one rectangle.
   void add_map() {
     const core::OccupancyGrid& grid = problem_.grid();
     const double side = grid.resolution();

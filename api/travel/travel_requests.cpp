@@ -242,7 +242,7 @@ std::optional<core::TravelAnswers> matrix_times(const MatrixRequest& request, co
             core::Problem::create(request.map, robots_at(starts, goals, false, request.robot, request.zones),
                                   conditions_of(request.options, request.zones), stop);
         const auto* problem = std::get_if<core::Problem>(&made);
-        if (problem == nullptr) return false;  // it was stopped, as the poses have been checked
+        if (problem == nullptr) return false;  // it was stopped, because the poses have already been checked
         auto part =
             core::travel_times(*problem, request.options, questions_of(starts, goals), stop, executor, go_on);
         if (!part) return false;

@@ -164,10 +164,10 @@ std::size_t OrderTracker::committed() const {
   return route_.nodes.empty() ? 0 : std::min(route_.nodes.front().at.action, actions_.size());
 }
 
-/// The last node of the route that it has reached; none if it has not come to the first one yet.
+/// The last node of the route that it has reached. None if it has not come to the first node yet.
 std::optional<std::size_t> OrderTracker::reached() const {
   const auto& last = state_->last_sequence_id;
-  // A vehicle that has just taken an order may still report the last node of the one before.
+  // A vehicle that has just taken an order may still report the last node of the previous order.
   const bool is_stale = !last || (state_->next_sequence_id && *state_->next_sequence_id <= *last);
   return is_stale ? std::nullopt : route_.node_of(*last);
 }

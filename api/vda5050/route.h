@@ -40,7 +40,7 @@ struct RouteEdge {
 
 /// Where a route begins, and how its nodes are numbered.
 struct RouteStart {
-  std::size_t action = 0;         // the first one of the route; those before it are of an earlier order
+  std::size_t action = 0;  // the first action of the route; actions before it belong to an earlier order
   std::uint64_t sequence_id = 0;  // of the first node; the others follow in steps of two
   bool is_known = false;          // the vehicle has the first node already: nothing can be added to it
 };

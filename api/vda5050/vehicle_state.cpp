@@ -118,7 +118,7 @@ class StateReader {
   /// A vehicle cannot have reached what is not released.
   void judge_last_node() const {
     const auto& last = state_.last_sequence_id;
-    // A vehicle that has just taken an order may still report the last node of the one before.
+    // A vehicle that has just taken an order may still report the last node of the previous order.
     const bool is_earlier = !last || (state_.next_sequence_id && *state_.next_sequence_id <= *last);
     if (is_earlier || (*last < route_.first_sequence_id && *last % 2 == 0)) return;
     if (*last <= progress_.last_released && route_.node_of(*last)) return;

@@ -13,8 +13,8 @@ namespace {
 
 using api::ErrorCode;
 
-/// The most bytes of a refused request's body that are read and dropped; with a larger one, the connection
-/// ends.
+/// The most bytes of a refused request's body that are read and dropped. If the body is larger, the
+/// connection ends.
 constexpr std::uint64_t kMaxDropped = 1 << 20;
 /// The least rate of a body. A body that arrives more slowly falls behind; the read timeout limits how far.
 constexpr std::uint64_t kLeastBytesPerMs = 100;

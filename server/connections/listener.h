@@ -55,7 +55,7 @@ class RequestThreads {
 /// What a failed accept() means for the listener.
 enum class AcceptFault {
   none_waiting,     // there is no connection to accept
-  connection_lost,  // that connection is gone; the next one may be fine
+  connection_lost,  // this connection is gone; the next one may be fine
   exhausted,        // no descriptors or no memory for now
   broken,           // the listening socket is not one, or no longer
 };
@@ -72,10 +72,10 @@ int accept_connection(int listening_fd);
 class Listener {
  public:
   struct Context {
-    std::size_t threads;  // requests that are read or answered at a time
-    std::size_t
-        connections;         // open at a time; beyond, the one whose client has let it wait longest is closed
-    const StopSignal& stop;  // once raised, connections do not wait for input any more
+    std::size_t threads;      // requests that are read or answered at a time
+    std::size_t connections;  // open at a time; beyond, the connection that has waited for its client longest
+                              // is closed
+    const StopSignal& stop;   // once raised, connections do not wait for input any more
     std::function<std::unique_ptr<Connection>(int fd)> connect;  // takes the descriptor over
     std::function<void(const std::string& what)> report;         // a fault of one connection
     std::function<void(const std::string& why)> failed;          // no more connections are accepted

@@ -119,8 +119,8 @@ std::optional<double> quota_v1(const fs::path& group) {
   return parse_quota(first_line(group / "cpu.cfs_quota_us") + ' ' + first_line(group / "cpu.cfs_period_us"));
 }
 
-/// Returns the smallest quota of a group and the groups above it. Inside a container the group's own path may
-/// be absent and its files be at the mount itself, which is the last one looked at.
+/// Returns the smallest quota of a group and the groups above it. Inside a container, the group's own path
+/// may be absent, and its files at the mount itself. So the mount is examined last.
 template <typename Quota>
 std::optional<double> smallest_quota(const fs::path& mount, const fs::path& group, Quota quota) {
   std::optional<double> smallest;

@@ -139,7 +139,7 @@ class QueueSink final : public spdlog::sinks::base_sink<std::mutex> {
 /// Rounds milliseconds to the third decimal, which is enough, and short.
 double rounded(double ms) { return std::round(ms * 1000.0) / 1000.0; }
 
-/// Returns the end of what proxies forwarded, to which the nearest one adds: clients can make the rest as
+/// Returns the end of what proxies forwarded, to which the nearest proxy adds. Clients can make the rest as
 /// long as a head.
 std::string_view nearest(std::string_view forwarded) {
   constexpr std::size_t kMaxLength = 256;

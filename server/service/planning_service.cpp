@@ -4,7 +4,7 @@
 namespace fleetplan::server {
 
 Service planning_service() {
-  // Listing the examples reads all of their maps, so it is done once, and only where somebody asks.
+  // Listing the examples reads all of their maps. So it is done once, and only when a client asks for it.
   const auto list_examples = [] {
     static const api::Reply list = api::examples_endpoint();
     return list;

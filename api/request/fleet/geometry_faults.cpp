@@ -214,8 +214,8 @@ std::string overlap_text(const char* option, const core::ProblemFault& found, do
   return std::string("options.") + option + " of at least " + rounded_up(inflation - found.gap) + " m";
 }
 
-/// Returns what helps a goal at this place of the request that does not fit. `stays`: the robot may stay
-/// there, as it is its last one.
+/// Returns the remedy for a goal at this place of the request that does not fit. `stays`: the robot may stay
+/// there, because it is its last goal.
 std::string goal_remedy(const core::ProblemFault& found, const JsonReader& goal, bool stays, double inflation,
                         const WorldFrame& frame, NearestGoals& nearest) {
   const std::string in_dock = stays && may_overlap(found)
@@ -264,8 +264,8 @@ std::string goal_name(const ParsedRobot& read, std::size_t goal) {
   return read.goals.size() < 2 ? "goal" : "goal " + std::to_string(goal) + " (from 0)";
 }
 
-/// Returns the action that is executed at the time, or begins then, as it stands in the request; the start of
-/// a robot without actions.
+/// Returns the action that is executed at the time, or begins then, as it stands in the request. For a robot
+/// without actions, returns its start.
 JsonReader action_at(const ParsedRobot& read, double t, bool begins = false) {
   JsonReader place = read.start;
   for (const JsonReader item : read.committed.items()) {

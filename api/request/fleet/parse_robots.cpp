@@ -96,7 +96,7 @@ std::optional<std::size_t> parse_choice(const JsonReader& goal, std::size_t pose
 }
 
 /// Reads `tolerance`, and the `place` at which the actions of the robot serve the goal. Returns the goal as
-/// an open one; none if it has no tolerance.
+/// an open goal; none if it has no tolerance.
 std::optional<core::OpenGoal> parse_tolerance(const JsonReader& json, const core::Goal& pose,
                                               const WorldFrame& frame) {
   const JsonReader member = json.find("tolerance");

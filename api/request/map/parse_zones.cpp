@@ -30,7 +30,7 @@ using Corners = std::vector<core::Position>;
 
 constexpr std::array<std::string_view, 2> kCornerMembers{"x", "y"};
 constexpr std::size_t kFewestCorners = 3;
-/// The most corners of one polygon: in the worst case, every side is compared with every other one.
+/// The most corners of one polygon. In the worst case, every side is compared with every other side.
 constexpr std::size_t kMaxCorners = 1000;
 /// The work of comparing two sides, in bytes of text.
 constexpr std::size_t kWorkOfAComparison = 8;

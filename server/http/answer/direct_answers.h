@@ -28,7 +28,7 @@ struct DirectAnswer {
 DirectAnswer refusal(const Exchange& exchange, api::ErrorCode code, const std::string& detail,
                      HeaderFields fields = {});
 
-/// Returns the header fields of every answer, whoever writes it.
+/// Returns the common header fields of all answers.
 HeaderFields common_fields(const Exchange& exchange);
 
 /// Returns a head, with the empty line that ends it. `further` header fields follow the common fields of

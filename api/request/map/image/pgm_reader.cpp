@@ -36,7 +36,8 @@ class NumberReader {
   std::size_t at() const { return at_; }
   std::size_t left() const { return bytes_.size() - at_; }
 
-  /// Returns the next whole number; a large one is at least 2^32. Returns none where there is no number.
+  /// Returns the next whole number. If it is large, returns any number of at least 2^32. Returns none if
+  /// there is no number.
   std::optional<std::uint64_t> next() {
     skip();
     const std::size_t first = at_;
