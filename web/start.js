@@ -1,5 +1,5 @@
-// Says at once when a part of the page has failed to load. A script of its own, as the modules may be what is missing.
-// Without it, and where nothing arrives at all, the notice of index.html shows itself after a while.
+// Says at once when a part of the page has failed to load. It is a separate script, because the modules may be missing.
+// Without it, and if nothing arrives at all, the notice of index.html shows itself after a while.
 
 {
   const notice = /** @type {HTMLElement} */ (document.getElementById("not-loaded"));

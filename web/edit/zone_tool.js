@@ -133,7 +133,7 @@ export class ZoneTool {
     this.#drag = null;
   }
 
-  /** Moves the corner across from the first one, and of a rectangle those beside it. */
+  /** Moves the corner across from the first one. For a rectangle, also moves the corners beside it. */
   #stretch(by) {
     const corners = cornersOf(this.#choice.zone);
     const far = Math.floor(corners.length / 2);

@@ -32,7 +32,7 @@ export class ExampleChoice {
     colours.onChange(() => this.#items.forEach((item) => item.scene && this.#paint(item)));
   }
 
-  /** `choose(name)` is called when somebody chooses an example. */
+  /** `choose(name)` is called when an example is chosen. */
   onChoose(choose) {
     this.#choose = choose;
   }

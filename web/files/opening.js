@@ -21,9 +21,8 @@ export class Opening {
   #turn = 0; // counts choices, so that a late one does not replace a newer one
 
   /**
-   * `service`: see service/client.js. `show(part)` brings a part of
-   * the page into sight: "plan", "comparison" (of the plan with the one before), "robots" (to place) or "problem". `work`: see
-   * MAP_WORK.
+   * `service`: see service/client.js. `show(part)` brings a part of the page into sight: "plan", "comparison" (of the
+   * plan with the previous plan), "robots" (to place) or "problem". `work`: see MAP_WORK.
    */
   constructor(session, service, show, work) {
     this.#session = session;

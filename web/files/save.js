@@ -73,8 +73,8 @@ export function fileStem(name) {
 }
 
 /**
- * The command that plans the request from a POSIX shell; examples are fetched, other requests inlined. `token`: whether
- * the service asks for one, which the command takes from the variable TOKEN.
+ * The command that plans the request from a POSIX shell. Examples are fetched, other requests inlined. `token`: whether
+ * the service asks for a token, which the command takes from the variable TOKEN.
  */
 export function curlCommand({ example, text }, base, token) {
   const curl = token ? `curl -sS -H "Authorization: Bearer $TOKEN"` : "curl -sS";

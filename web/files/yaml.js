@@ -7,7 +7,7 @@ const QUOTED = String.raw`"(?:[^"\\]|\\.)*"|'(?:[^']|'')*'`;
 const KEY = new RegExp(String.raw`^(${QUOTED}|[^\s"'#&*!|>%@\x60[\]{},?:-][^:#]*?)\s*:(?=\s|$)`);
 const NUMBER = /^[-+]?(\d[\d_]*(\.\d*)?|\.\d+)([eE][-+]?\d+)?$/;
 
-/** The text as an object of strings, numbers, booleans, nulls and lists of those. Throws FileError. */
+/** The text as an object of strings, numbers, booleans, nulls and lists of such values. Throws FileError. */
 export function readYaml(text) {
   const lines = logicalLines(text);
   const found = {};

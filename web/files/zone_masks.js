@@ -1,4 +1,5 @@
-// The masks of zones, read as the service reads them, to draw them. It takes long for large ones, see map_work.js.
+// The masks of zones, read in the same way as by the service, to draw them. It takes long for large masks, see
+// map_work.js.
 
 import { FileError } from "../model/problem.js";
 import { readImage } from "./map_image.js";

@@ -1,5 +1,5 @@
-// The cells of a map: where they are and which ones a line or a rectangle covers. Pure.
-// A cell is {column, row}, row 0 the top one, and may lie outside the map. A grid: see readScene.
+// The cells of a map: where they are and which of them a line or a rectangle covers. Pure. A cell is {column, row}; row
+// 0 is at the top. It may lie outside the map. A grid: see readScene.
 
 /** The cell that holds a world point. */
 export function cellAt({ origin, resolution, rows }, point) {

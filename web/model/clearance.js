@@ -20,7 +20,7 @@ export function clearanceOf(motions, samples = SAMPLES, resting = true) {
   const end = lastKnot(motions);
   const even = Array.from({ length: samples }, (_, k) => (end * k) / samples);
   const times = sortedOnce([...knotTimes(motions, end), ...even]);
-  // Who has another radius from the end on has it in none of the windows before.
+  // A robot whose radius changes only at the end has this radius in none of the windows before.
   const changesLast = motions.some(({ radii }) => radii.some(({ t }) => t >= end));
   const windows = Math.max(1, changesLast ? times.length : times.length - 1);
   const curve = {

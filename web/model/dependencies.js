@@ -11,8 +11,8 @@ import { poseInAction } from "./timeline.js";
  */
 
 /**
- * The dependencies of a robot's action: those whose gate is in it, which it waits for, and those by which others wait
- * for it. Each in the order of the plan.
+ * The dependencies of a robot's action, each in the order of the plan. First the dependencies whose gate is in the
+ * action: it waits for them. Then the dependencies by which others wait for it.
  * @param {Dependency[]} dependencies
  * @param {string} robot
  * @param {number} action its number in the robot's plan

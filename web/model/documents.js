@@ -1,4 +1,5 @@
-// What is open: the present document (see document.js), and those before and after it, which undo and redo restore.
+// What is open: the present document (see document.js), and the documents before and after it, which undo and redo
+// restore.
 
 import { answered, documentOf, edited } from "./document.js";
 import { History } from "./history.js";
@@ -50,7 +51,7 @@ export class Documents {
     return this.#history.canRedo;
   }
 
-  /** Opens another request, see documentOf; undo restores the previous one if that was edited. */
+  /** Opens another request, see documentOf. Undo restores the previous request if it was edited. */
   open(opened) {
     if (this.isEdited) this.#history.push(documentOf(opened));
     else this.#history.replace(documentOf(opened));

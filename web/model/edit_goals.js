@@ -42,7 +42,7 @@ export function setAlternative(request, index, number, at, members) {
   );
 }
 
-/** The request without one of a goal's alternative poses; of two, the other one is the goal. */
+/** The request without one of a goal's alternative poses. If there were two, the other pose becomes the goal. */
 export function removeAlternative(request, index, number, at) {
   return withAlternatives(request, index, number, (poses) => poses.filter((_, place) => place !== at));
 }

@@ -32,7 +32,10 @@ export function setZone(request, index, members) {
   return withZone(request, index, (zone) => withMembers(zone, members));
 }
 
-/** The request with a zone of another type, with the members that it needs and without those it must not have. */
+/**
+ * The request with a zone of another type. It has the members that this type needs, and no members that it must not
+ * have.
+ */
 export function setZoneType(request, index, type) {
   return withZone(request, index, (zone) => {
     const { linear_speed, angular_speed, heading, half_angle, ...rest } = zone;

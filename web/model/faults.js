@@ -53,7 +53,7 @@ export function placeOfFault(request, scene, pointer) {
   return null;
 }
 
-/** The entry of a list that a pointer leads to, or else the first one with a place; null if there is none. */
+/** The entry of a list that a pointer leads to. Otherwise, the first entry with a place; null if there is none. */
 function firstPlace(entries, member, index) {
   const listed = Array.isArray(entries) ? entries : [];
   const named = ["motion", "polygon"].includes(member) ? listed[Number(index)] : undefined;

@@ -167,7 +167,7 @@ export class FleetMotion {
     return nearest;
   }
 
-  /** The smallest gap of the plan but for pairs at rest: {t, gap, ids}, or null. */
+  /** The smallest gap of the plan, without pairs at rest: {t, gap, ids}, or null. */
   get least() {
     if (this.curve === null || this.curve.gap[this.curve.least] === Infinity) return null; // or nobody moves
     return this.momentOf(this.curve.least);

@@ -146,7 +146,7 @@ export class FleetRun {
     else this.#proceed(this.#isProceeding && this.#plays);
   }
 
-  /** How long the fleet is played until a hold begins, as its plan takes some time. */
+  /** How long the fleet is played until a hold begins, because its plan takes some time. */
   get #lead() {
     const latency = Math.max(0, ...this.rounds.slice(-SMOOTHED).map((round) => round.latency)) / 1000;
     return (LEAST_LEAD + LEAD_SHARE * latency) * this.#session.player.speed;
@@ -207,7 +207,10 @@ export class FleetRun {
     this.#proceed(true);
   }
 
-  /** Who pauses while the next round is late wants that one paused, too; a pause before a hold is not theirs. */
+  /**
+   * If the user pauses while the next round is late, the next round is paused, too. A pause before a hold does not come
+   * from the user.
+   */
   #onPlayback() {
     const { playing, time, duration } = this.#session.player;
     if (this.#isProceeding && !this.#isCut && !playing && time < duration) this.#plays = false;

@@ -7,7 +7,7 @@ export function goalsOf(robot) {
   return robot?.goal === undefined ? [] : [robot.goal];
 }
 
-/** The poses at one of which a goal is served, as they are in the request; none of a goal with one pose. */
+/** The poses at one of which a goal is served, as they are in the request; none for a goal with one pose. */
 export const alternativesOf = (goal) => (Array.isArray(goal?.any_of) ? goal.any_of : []);
 
 /** The last goal as it is in the request; undefined if there is none. */

@@ -24,7 +24,7 @@ export class History {
     return this.#future.length > 0;
   }
 
-  /** A new present value. Consecutive ones with the same `gesture` (not null) are one step. */
+  /** A new present value. Consecutive values with the same `gesture` (not null) are one step. */
   push(value, gesture = null) {
     if (gesture === null || gesture !== this.#gesture) {
       this.#past.push(this.#present);

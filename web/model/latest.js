@@ -1,8 +1,8 @@
 // Work for the present request, which a newer one replaces. No DOM.
 
 /**
- * A function (delay, work) that calls work(signal) after a delay in milliseconds. Another call drops earlier work: it is
- * not begun any more, or its signal is aborted, in which case its AbortError is nobody's concern.
+ * A function (delay, work) that calls work(signal) after a delay in milliseconds. Another call drops earlier work: it
+ * is not begun any more, or its signal is aborted. Then its AbortError is ignored.
  */
 export function latestOnly() {
   let timer = null;

@@ -1,5 +1,5 @@
-// The obstacles of a request that move on their own: people, robots of others. Faulty ones are left out. Pure.
-// Seconds and metres.
+// The obstacles of a request that move on their own: people, robots of other fleets. Faulty obstacles are left out.
+// Pure. Seconds and metres.
 
 import { obstaclesOf } from "./listed.js";
 

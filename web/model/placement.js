@@ -57,7 +57,7 @@ export const startDisks = ({ robots }) => robots.map(({ start, radius }) => ({ .
 /** The radius of a robot at its last goal, after all loads. */
 export const lastRadius = ({ radius, radiiAfter }) => radiiAfter.findLast((each) => each !== null) ?? radius;
 
-/** Where a robot goes, as a disk; null if it may be at one of several poses. */
+/** Where a robot goes, as a disk. Null if the goal may be at one of several poses. */
 function endDisk(robot) {
   if (robot.goal === null && robot.alternatives.at(-1)?.length > 0) return null;
   return { ...(robot.goal ?? robot.start), radius: robot.goal ? lastRadius(robot) : robot.radius };

@@ -11,9 +11,9 @@ export function planFile(request, answer) {
 }
 
 /**
- * Splits a parsed JSON document: {request, answer}, one of which may be null. A request may be faulty, as the
- * service reports its faults. An answer can be shown; its costs are computed from its plans, and it has no
- * `verified`, as it has not been checked yet. Throws FileError for other documents.
+ * Splits a parsed JSON document: {request, answer}, one of which may be null. A request may be faulty, because the
+ * service reports its faults. An answer can be shown. Its costs are computed from its plans. It has no `verified`,
+ * because it has not been checked yet. Throws FileError for other documents.
  */
 export function readDocument(document) {
   if (document === null || typeof document !== "object" || Array.isArray(document)) throw notOurs();
@@ -55,7 +55,7 @@ function notOurs() {
   );
 }
 
-/** The answer with all figures that follow from its plans, regardless of those in the document. */
+/** The answer with all figures that follow from its plans. Figures in the document do not count. */
 function completed({ verified: _, ...answer }) {
   const plans = answer.plans.map((plan) => ({ ...plan, cost: plan.actions.at(-1)?.t_end ?? 0 }));
   const { unplanned = [], warnings = [] } = answer;

@@ -24,8 +24,8 @@ export class Planning {
   }
 
   /**
-   * Plans the request; resolves at the end to whether there is an answer: the last one, or the best so far if planning
-   * fails. `budget`: see PlanRun.
+   * Plans the request. Resolves at the end to whether there is an answer: the final answer, or the best so far if
+   * planning fails. `budget`: see PlanRun.
    */
   async plan(budget) {
     const session = this.#session;

@@ -56,7 +56,7 @@ export function robotIndexOf(pointer) {
   return first === "robots" && /^\d+$/.test(index ?? "") ? Number(index) : null;
 }
 
-/** The row of the map that a pointer leads to, 0 the top one, or null. */
+/** The row of the map that a pointer leads to, or null. Row 0 is at the top. */
 export function mapRowOf(pointer) {
   const [first, rows, row] = partsOf(pointer);
   return first === "map" && rows === "rows" && /^\d+$/.test(row ?? "") ? Number(row) : null;

@@ -25,8 +25,8 @@ export function inertiaAfter(goal, inertia) {
 }
 
 /**
- * The actions, each that has a profile with `changes`: the seconds in which its speed rises and falls. A profile that does
- * not fit into its action is left out, as the service's check does: the action then is at constant speed.
+ * The actions; each action with a profile gets `changes`: the seconds in which its speed rises and falls. A profile
+ * that does not fit into its action is left out, as in the service's check. The action is then at constant speed.
  * @param {Action[]} actions
  * @param {Inertia} inertia at first
  * @param {{t: number, inertia: Inertia}[]} later each from its t on

@@ -110,8 +110,8 @@ export class Session extends Marking {
   }
 
   /**
-   * Shows another request: {name, example: its name or null, text, request}, with an answer or null. Undo
-   * restores the previous one if that was edited.
+   * Shows another request: {name, example: its name or null, text, request}, with an answer or null. Undo restores the
+   * previous request if it was edited.
    */
   open(opened, answer = null) {
     this.#documents.open(opened);

@@ -57,7 +57,7 @@ function lineOf(actions, type) {
   return line;
 }
 
-/** Appends a corner, without those before that the line does not need. */
+/** Appends a corner. Removes earlier corners that the line does not need. */
 function add(line, t, speed) {
   const [at, before] = line.at(-1);
   if (t === at && speed === before) return;

@@ -1,4 +1,5 @@
-// Robots that are stuck: they gain nothing towards their goals within the planning horizon, as others are in their way.
+// Robots that are stuck: they gain nothing towards their goals within the planning horizon, because others are in their
+// way.
 
 /** @import {Answer, Blocked} from "./types.js" */
 
@@ -17,5 +18,5 @@ export function stuckOf(answer) {
   }));
 }
 
-/** The ids of the robots in the way of one with this track (see readTracks): it has no plan, or is stuck. */
+/** The ids of the robots that block a robot with this track (see readTracks), which has no plan or is stuck. */
 export const blockersOf = (track) => (track?.unplanned ?? track?.stuck)?.blocked_by ?? [];

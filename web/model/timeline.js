@@ -17,7 +17,7 @@ export function turnBetween(from, to) {
   return normalizeAngle(normalizeAngle(to) - normalizeAngle(from));
 }
 
-/** The index of the action at t; the later one where two meet. `actions` is not empty. */
+/** The index of the action at t; where two actions meet, the later one. `actions` is not empty. */
 export function actionIndexAt(actions, t) {
   let low = 0;
   let high = actions.length - 1;

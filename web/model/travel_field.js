@@ -56,7 +56,7 @@ export class TravelField {
     return this.#seconds.length;
   }
 
-  /** The numbers of all squares, so that each step of them is spread over the map and finer than the last one. */
+  /** The numbers of all squares, in steps. Each step is spread over the map and finer than the previous step. */
   *squares() {
     const had = new Uint8Array(this.count);
     for (const stride of STRIDES) {

@@ -13,7 +13,7 @@ const FIRST = 16; // places that are asked for at first: about as many as the se
 const MAX = 4000; // places that are asked for at a time; the service accepts 250,000
 const QUICK_MS = 700; // of a part that is followed by a much larger one
 const BUDGET_MS = 20_000; // of a part
-const PATIENCE_MS = 20_000; // after which no further part is asked for: the finest ones are left out
+const PATIENCE_MS = 20_000; // after which no further part is asked for: the finest parts are left out
 const FEWER = 4; // times fewer places, if the service cannot do so many within its time and memory
 const TOO_MANY = ["check_unfinished", "memory_exceeded"];
 

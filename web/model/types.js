@@ -17,7 +17,7 @@
  * linear_deceleration_after?: number}} GivenGoal */
 
 /**
- * A disk that nobody controls; it leaves after its motion unless `after` is "stays".
+ * A disk that the fleet does not control. It leaves after its motion unless `after` is "stays".
  * @typedef {object} RequestObstacle
  * @property {string} id
  * @property {number} radius
@@ -46,7 +46,7 @@
 /** @typedef {{radius?: number, linear_speed?: number, angular_speed?: number}} RobotDefaults */
 
 /**
- * A request of POST /v1/plan. The page shows and edits faulty ones, too: readers check what they use.
+ * A request of POST /v1/plan. The page also shows and edits faulty requests: readers check what they use.
  * @typedef {object} Request
  * @property {RequestMap} map
  * @property {RequestRobot[]} robots

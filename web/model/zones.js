@@ -1,4 +1,4 @@
-// The zones of a request, as they are drawn. Faulty ones are left out. Pure. Metres.
+// The zones of a request, as they are drawn. Faulty zones are left out. Pure. Metres.
 
 import { maskOf } from "./drawn_map.js";
 import { zonesOf } from "./listed.js";

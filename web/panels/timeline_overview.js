@@ -1,5 +1,5 @@
 // The overview above the timeline: how many robots move, turn and wait over the whole plan, and the part of it that the
-// timeline shows. A press or a drag moves that part there; keys do so in the timeline itself.
+// timeline shows. A press or a drag moves this part there. In the timeline itself, keys move it.
 
 import { overviewOf } from "../model/overview.js";
 import { byId, contextOf } from "../ui/dom.js";

@@ -48,7 +48,7 @@ export class Transport {
     this.#session.seek(0);
   }
 
-  /** To the next event (+1) or the one before (-1), of the selected robot if there is one. */
+  /** To the next event (+1) or the previous event (-1), of the selected robot if there is one. */
   step(direction) {
     this.#session.pause();
     this.#session.seek(nextEvent(this.#eventsOf(this.#session.selected), this.#player.time, direction));

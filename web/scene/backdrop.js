@@ -20,8 +20,9 @@ export class Backdrop {
   }
 
   /**
-   * Draws the picture for a view {camera, viewport, ratio, width, height}. `paint(context)` paints it, as a generator that
-   * yields now and then; at once, unless `moving`: then the last one will do. `background`: the colour around it.
+   * Draws the picture for a view {camera, viewport, ratio, width, height}. `paint(context)` paints it, as a generator
+   * that yields now and then. It is painted at once, unless `moving`: then the last picture is enough. `background`:
+   * the colour around it.
    */
   draw(context, view, { moving, background, paint }) {
     const shown =

@@ -1,5 +1,5 @@
-// Chooses robots by a box: with Shift, the pointer drags a rectangle over them; with Ctrl as well, they are added to
-// those chosen already.
+// Chooses robots by a box. With Shift, the pointer drags a rectangle over them. With Ctrl as well, they are added to
+// the robots chosen already.
 
 export class BoxSelection {
   #session;

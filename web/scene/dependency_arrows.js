@@ -1,6 +1,6 @@
 // Dependencies as arrows. In the scene, an arrow leads from where a robot must have been to where another robot may
-// then pass. In the timeline, it leads from one moment to the other. The marked robot waits for solid ones. Others wait
-// for it by dashed ones.
+// then pass. In the timeline, it leads from one moment to the other. The marked robot waits by solid arrows. Other
+// robots wait for it by dashed arrows.
 
 import { yOf, xOf } from "../model/gantt.js";
 import { drawPath } from "./marks.js";

@@ -1,4 +1,4 @@
-// Follows a robot: the camera keeps the selected one in its middle, until it is moved by hand.
+// Follows a robot: the camera keeps the selected robot in its middle, until the camera is moved by hand.
 
 import { byId } from "../ui/dom.js";
 

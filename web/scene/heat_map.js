@@ -6,7 +6,7 @@ import { contextOf } from "../ui/dom.js";
 const STRONGEST = 0.85; // opacity
 const FAINTEST = 0.12;
 
-/** The opacity of a value among values up to `most`; the root spreads the small ones. */
+/** The opacity of a value among values up to `most`. The root spreads the small values. */
 export function opacityOfHeat(value, most) {
   return value > 0 ? FAINTEST + (STRONGEST - FAINTEST) * Math.sqrt(value / most) : 0;
 }

@@ -93,7 +93,7 @@ function paintGap(context, theme, [a, b], gap) {
   const apart = Math.hypot(b.x - a.x, b.y - a.y);
   const middle = { x: (a.x + b.x) / 2, y: (a.y + b.y) / 2 };
   const aside = apart - a.radius - b.radius < TAG_FROM ? Math.max(a.radius, b.radius) + ASIDE : 0;
-  // Below the line, as the names of robots are above them.
+  // Below the line, because the names of robots are above them.
   const [x, y] = apart > 0 ? [-(b.y - a.y) / apart, (b.x - a.x) / apart] : [0, 1];
   const side = y < 0 ? -1 : 1;
   drawTag(context, theme, { x: middle.x + x * aside * side, y: middle.y + y * aside * side }, metres(gap));

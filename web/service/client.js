@@ -92,7 +92,10 @@ export async function validate(text, signal = undefined) {
   return post("v1/validate", text, signal);
 }
 
-/** A text to send: a large one as a Blob, which Chromium passes on in half the time, and not while the page waits. */
+/**
+ * A text to send. A large text is sent as a Blob, which Chromium passes on in half the time, and not while the page
+ * waits.
+ */
 const bodyOf = (text) => (text.length > LARGE ? new Blob([text]) : text);
 
 /** The answer to a text. */
@@ -201,7 +204,7 @@ export async function* readEvents(body) {
   const decoder = new TextDecoder();
   const reader = body.getReader();
   let parts = []; // of the current event, which may arrive in many pieces
-  let tail = ""; // their last characters, as an end may be split across pieces
+  let tail = ""; // their last characters, because an end may be split across pieces
   try {
     for (;;) {
       const { done, value } = await reader.read();

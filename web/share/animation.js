@@ -122,8 +122,8 @@ async function playPlan(session, picture, signal, progress) {
   recorder.addEventListener("dataavailable", ({ data }) => parts.push(data));
   const stopped = new Promise((resolve) => recorder.addEventListener("stop", resolve));
   recorder.start();
-  // However busy the machine is: without a first picture no player opens the file, and without a last one it is over at
-  // once.
+  // A first and a last picture are recorded, however busy the machine is. Without a first picture, no player opens the
+  // file. Without a last picture, it is over at once.
   await recordPicture(recorder, picture, parts, signal);
   await playOnce(session, picture, recordingSpeed(player.duration, player.speed), signal, progress);
   await recordPicture(recorder, picture, parts, signal);

@@ -41,7 +41,7 @@ const NAME = "Fleetplan";
 const NANOSECONDS = 1_000_000; // in a unit of time: milliseconds
 const VIDEO = 1; // type of a track
 const TRACK = 1; // number of the only one
-const KEY = 0x80; // flag of a block that needs no other one
+const KEY = 0x80; // flag of a block that needs no other block
 
 /**
  * The parts of a file with these pictures, in their order; the first one is a key. `codec`: such as "V_VP8"; `duration` in
@@ -84,7 +84,7 @@ export function writeWebm({ codec, width, height, duration }, pictures) {
   return [...header, ...element(ID.segment, info, tracks, cues, ...clusters.map(({ parts }) => parts))];
 }
 
-/** The pictures from each key to the next one: [{time, parts}]. */
+/** The pictures from each key to the next key: [{time, parts}]. */
 function clustersOf(pictures) {
   /** @type {any[]} */
   const clusters = [];

@@ -1,5 +1,5 @@
-// A list of any length. Of a long one, only the parts near the visible ones are in the document, in chunks of rows of one
-// height, see styles/panels.css.
+// A list of any length. If it is long, only the parts near the visible rows are in the document, in chunks of rows of
+// one height, see styles/panels.css.
 
 import { element } from "./dom.js";
 

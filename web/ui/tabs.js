@@ -1,4 +1,4 @@
-// Tabs after ARIA's authoring practices: arrows move between them, only the chosen one is in the tab order.
+// Tabs after ARIA's authoring practices. Arrows move between them. Only the chosen tab is in the tab order.
 
 import { byId } from "./dom.js";
 

@@ -1,4 +1,6 @@
-"""Whether answers are what the service answers: the loops go on with nothing else, as the next request contains it."""
+"""Checks whether answers are valid answers of the service. The loops go on only with valid answers, because the next
+request contains them.
+"""
 
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NoReturn, NotRequired, TypedDict
@@ -68,8 +70,8 @@ class _Cancel(TypedDict):
 
 
 def check_plan(request: PlanRequest, answer: PlanAnswer) -> None:
-    """Whether it is a plan for the request, each robot's actions go on where the ones before end, and dependencies are
-    between these."""
+    """Whether it is a plan for the request. Each robot's actions must be contiguous, and dependencies must be between
+    these actions."""
     _shape(answer, _Plan)
     robots = {robot["id"]: robot for robot in request["robots"]}
     named = [entry["robot"] for entry in [*answer["plans"], *answer["unplanned"]]]
@@ -98,7 +100,7 @@ def check_dependencies(request: PlanRequest, answer: PlanAnswer, made: Mapping[s
 
 
 def check_advance(request: PlanRequest, answer: AdvanceAnswer) -> None:
-    """Whether it is a request for the same robots, with the options of the one before."""
+    """Whether it is a request for the same robots, with the same options as the previous request."""
     _shape(answer, _Advance)
     options: Mapping[str, object] = answer["options"]
     for name, value in request.get("options", {}).items():

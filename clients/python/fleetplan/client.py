@@ -65,7 +65,7 @@ class Client:
         return cast(PlanAnswer, self._post("/v1/plan", request))
 
     def plan_events(self, request: PlanRequest) -> Generator[PlanEvent, None, None]:
-        """The events `progress` and `incumbent` as they happen; the last one is `plan`, with the answer. Closing the
+        """The events `progress` and `incumbent` as they happen. The last event is `plan`, with the answer. Closing the
         generator before cancels the plan."""
         for name, data in self._events("/v1/plan", request, "plan"):
             yield cast(PlanEvent, {"event": name, "data": data})
@@ -113,7 +113,7 @@ class Client:
                         disturbance: Disturbance | None = None, runs: int | None = None, seed: int | None = None,
                         max_delay: float | None = None,
                         trace: int | None = None) -> Generator[SimulationEvent, None, None]:
-        """The events `progress` as they happen; the last one is `simulation`, with the answer."""
+        """The events `progress` as they happen. The last event is `simulation`, with the answer."""
         body = _given(request, plans, policy=policy, disturbance=disturbance, runs=runs, seed=seed,
                       max_delay=max_delay, trace=trace)
         for name, data in self._events("/v1/simulate", body, "simulation"):

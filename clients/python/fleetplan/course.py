@@ -251,7 +251,7 @@ class Course:
         return sum(move.amount for move in self.moves(begin, end) if move.type == "translate")
 
     def after(self, place: Place, moves: Sequence[Move], near: float = _ON_PLACE) -> Place:
-        """Where a robot is after what it has done on another course that begins in the same way. One of them may have
+        """Where a robot is after its actions on another course that begins in the same way. One of the courses may have
         moves of less than `near`, and small turns, that the other does not have."""
         for move in moves:
             left = move.amount

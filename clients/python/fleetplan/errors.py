@@ -12,7 +12,7 @@ class FleetplanError(Exception):
 
 
 class ConnectionFailed(FleetplanError):
-    """There is no answer: nobody listens, the connection ended, or the server was silent for too long."""
+    """There is no answer: no server listens, the connection ended, or the server was silent for too long."""
 
 
 class InvalidAnswer(ConnectionFailed):

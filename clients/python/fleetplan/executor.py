@@ -138,8 +138,8 @@ class Executor:
 
     @property
     def served(self) -> list[str]:
-        """Robots that have served all of their goals, and those without goals that make way (`idle`), also while they do
-        so."""
+        """Robots that have served all of their goals, and robots without goals that make way (`idle`), even while they
+        do so."""
         return [robot for robot, progress in self._robots.items() if progress.idle or
                 progress.goals and progress.arrives and progress.place >= progress.course.end - _REACHED]
 
@@ -296,7 +296,7 @@ class Executor:
             self._keep_time(pair)
 
     def _keep_time(self, pair: TightPair) -> None:
-        """The robot that waits for the other one nearest to the time of a tight pair is the second to pass."""
+        """In a tight pair, the robot that waits for the other nearest to the pair's time is the second to pass."""
         first, second = pair["robots"]
         gates = [(abs(self._robots[robot].course.time_at(gate.place) - pair["t"]), robot, other)
                  for robot, other in ((first, second), (second, first))
@@ -343,7 +343,7 @@ class Executor:
         return min(self._closed_at(robot), progress.commitment, progress.course.end, *limits)
 
     def _on_time(self, progress: _Progress, clock: _Clock) -> Place:
-        """The place at which the robot is planned to be when the other one is where it is now."""
+        """The place at which the robot is planned to be when the other robot is where it is now."""
         other = self._robots[clock.other]
         t = other.course.time_at(other.place)
         return progress.course.place_at(t) if t < clock.until else math.inf

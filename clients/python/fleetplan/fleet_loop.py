@@ -35,7 +35,7 @@ class _Round:
     begin: float
     ready: float  # not followed before, whenever it is made
     places: Mapping[str, Place]  # of robots at the moment
-    first: PlanRequest | None = None  # of the first plan; written by the thread that plans, as the next one is
+    first: PlanRequest | None = None  # of the first plan; written by the thread that plans, as is the next one
     request: AdvanceAnswer | None = None  # of the moment, once it is known
     committed: bool = False  # robots to what it commits them to
     passed: Sequence[str] = ()  # robots that were further by then
@@ -127,7 +127,7 @@ class FleetLoop(PlanningLoop):
 
     @property
     def overran(self) -> list[str]:
-        """Robots that have passed a gate that is closed: somebody should look."""
+        """Robots that have passed a closed gate: an operator should look at them."""
         return self._executor.overran if self._executor is not None else []
 
     # ---------------------------------------------------------------- rounds
@@ -210,7 +210,7 @@ class FleetLoop(PlanningLoop):
                 return
         except FleetplanError as error:
             self._end_round(error)
-        except Exception as error:  # a bug, or an answer that is wrong in a way that nobody has foreseen
+        except Exception as error:  # a bug, or an answer that is wrong in an unforeseen way
             self._end_round(unforeseen(error))
         else:
             self._round, self.failure, self._given, self.answer = None, None, {}, answer

@@ -323,7 +323,7 @@ class Pool:
 
 
 def read_json(text: bytes | str) -> object:
-    """The value, or nothing if it is not JSON, or cannot be read, as it is nested too deeply."""
+    """The value, or nothing if it is not JSON or is nested too deeply to be read."""
     try:
         value: object = json.loads(text, parse_constant=_refuse)
     except (ValueError, RecursionError, MemoryError):

@@ -19,10 +19,10 @@ _CONNECT = 10.0  # seconds: for which `start` waits for the broker
 
 
 class MqttTransport:
-    """Publishes messages for vehicles, and calls `take` with their state messages, in a thread of its own.
+    """Publishes messages for vehicles, and calls `take` with their state messages, in a separate thread.
 
-    Who sends a message is what its topic says, as that is what a broker lets vehicles do or not. A message that says
-    otherwise, or that is not JSON, costs nothing but this message.
+    The topic tells which vehicle sends a message, because a broker can restrict topics for vehicles. A message that
+    contradicts its topic, or that is not JSON, is ignored.
     """
 
     def __init__(self, take: Callable[[VdaMessage], None], *, manufacturer: str | Collection[str],
@@ -83,7 +83,7 @@ class MqttTransport:
             self._client.publish(topic, write_json(body), qos=0)
 
     def _receive(self, message: Any) -> None:
-        """Whatever a message is, the thread goes on to the next one."""
+        """Whatever a message contains, the thread goes on to the next message."""
         topic = "a topic"
         try:
             topic = str(message.topic)

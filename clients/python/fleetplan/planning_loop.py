@@ -85,8 +85,8 @@ class PlanningLoop:
 
     def _advanced(self, advance: Callable[..., AdvanceAnswer], request: PlanRequest,
                   parts: Mapping[str, list[Any]]) -> AdvanceAnswer:
-        """The next request. `parts`: what is said of single robots. What is at fault of these is left out and told, but
-        for goals: it costs nobody else anything."""
+        """The next request. `parts`: members about single robots. If any of them are at fault, they are left out and
+        reported, so that other robots are not affected. Goals at fault are an exception."""
         left = {name: list(entries) for name, entries in parts.items()}
         while True:
             try:
@@ -132,8 +132,8 @@ class PlanningLoop:
         return answer
 
     def _fail(self, error: FleetplanError, *, is_first: bool) -> None:
-        """A round has failed: the next one goes on from the plan that there is. Goals that were given in it are given
-        again, but for those at fault. `is_first`: there is no plan yet."""
+        """A round has failed: the next round goes on from the present plan. Its new goals are given again, except goals
+        at fault. `is_first`: there is no plan yet."""
         self.failure = error
         self._faults.tell(error)
         given, self._given = self._given, {}

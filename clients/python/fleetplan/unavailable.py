@@ -39,7 +39,7 @@ def put_aside(request: PlanRequest, out: Collection[str], waiting: Mapping[str, 
 
 
 def _without_places(goals: list[Goal], committed: list[Action]) -> list[Goal]:
-    """Without the first ones that ask for nothing but a rest in a pose in which the robot is committed to rest."""
+    """Without the first goals that only ask for a rest in a pose in which the robot is committed to rest."""
     rests = [action["to"] for action in committed if action["type"] == "wait"] + [action["to"] for action in committed[-1:]]
     passed = 0
     while passed < len(goals) and any(_is_place(goals[passed], pose) for pose in rests):

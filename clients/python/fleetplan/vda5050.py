@@ -102,7 +102,7 @@ class VdaLoop(PlanningLoop):
         self.rounds = 0  # that have succeeded
         self._wait, self._waits_since = wait, math.inf
         self._states: dict[str, VdaMessage] = {}  # by robot, the last ones
-        self._imported: dict[str, VdaMessage] = {}  # by robot, the last ones that the service has read
+        self._imported: dict[str, VdaMessage] = {}  # by robot, the last state messages that the service has read
         self._lock = threading.Lock()  # of the states
         self._orders: dict[str, VdaMessage] = {}  # the last messages, with the nodes before them, by robot
         self._cancels: dict[str, str] = {}  # ids of the actions that cancel orders, by robot
@@ -202,7 +202,7 @@ class VdaLoop(PlanningLoop):
     # ---------------------------------------------------------------- orders
 
     def _import(self, plan: _Plan) -> Vda5050States:
-        """How far vehicles are; what is known of their orders is brought up to date."""
+        """How far vehicles are. Updates what is known of their orders."""
         with self._lock:
             reported = dict(self._states)
         found = self._read_states(plan, reported)
@@ -317,7 +317,7 @@ class VdaLoop(PlanningLoop):
             return self._published(self._plan, exported, self._orders.keys())
         except FleetplanError as error:
             self.failure = error
-        except Exception as error:  # a bug, or an answer that is wrong in a way that nobody has foreseen
+        except Exception as error:  # a bug, or an answer that is wrong in an unforeseen way
             self.failure = unforeseen(error)
         self._faults.tell(self.failure)
         return []
@@ -457,7 +457,7 @@ class VdaLoop(PlanningLoop):
         return progress
 
     def _cancel_all(self, exported: Vda5050Answer) -> list[Message]:
-        """Nobody goes on by a plan that some vehicles cannot follow: they stand before the next one is made."""
+        """No vehicle goes on by a plan that some vehicles cannot follow: they stand before the next plan is made."""
         messages = []
         for entry in exported["cancel_orders"]:
             robot, message = entry["robot"], entry["instant_actions"]
@@ -474,6 +474,6 @@ def _timestamp() -> str:
 
 
 def _headless(message: VdaMessage) -> VdaMessage:
-    """Without the members that whoever sends it fills in."""
+    """Without the members that the sender fills in."""
     return {name: value for name, value in message.items()
             if name not in _HEADER}

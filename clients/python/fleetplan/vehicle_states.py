@@ -28,7 +28,7 @@ _REQUIRED = {"": ("orderId", "orderUpdateId"), "nodeStates": ("sequenceId",),
 
 
 class SentState(VdaMessage):
-    """A state message, and who has sent it, as its topic says: that is what a broker lets a vehicle do or not."""
+    """A state message, and its sender by its topic, because a broker can restrict topics for vehicles."""
 
     def __init__(self, state: VdaMessage, manufacturer: str, serial_number: str) -> None:
         super().__init__(state)
