@@ -22,7 +22,7 @@ void add_parameters(Json& image, Choices& choices) {
   if (choices.yes()) image.update({{"occupied_thresh", 1.0}, {"free_thresh", 0.0}});
 }
 
-/// The image of rows of cells, which is turned upside down if the choice is so.
+/// The image of rows of cells. The choice may turn it upside down.
 Json image_of(const Json& map, Choices& choices) {
   const Json& rows = map["rows"];
   const std::size_t columns = rows[0].get_ref<const std::string&>().size();

@@ -161,7 +161,7 @@ Json obstacles_of(const Extent& extent, Choices& choices) {
   return obstacles;
 }
 
-/// Robots from this one on have all the same goal, or one near it.
+/// Robots from this one on all have the same goal, or a goal near it.
 void add_tolerances(Json& robots, std::size_t first) {
   for (std::size_t k = first; k < robots.size(); ++k) {
     if (robots[k].contains("goal")) robots[k]["goal"] = robots[k]["start"];

@@ -86,7 +86,7 @@ class Places:
                     continue
                 if self.is_clear(x, y, parked):
                     self.all.append((x, y))
-        # Where every robot stops once: nobody rests for ever in a passage that others need.
+        # Where every robot stops once, so that no robot rests for ever in a passage that others need.
         given = [pose for robot in request["robots"]
                  for pose in (robot["start"], robot.get("goal"), *robot.get("goals", ())) if pose]
         self.last = [(pose["x"], pose["y"]) for pose in given

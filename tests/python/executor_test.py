@@ -151,7 +151,7 @@ class ByHand(unittest.TestCase):
             executor.report(Report("a", pose(0.005)), now - 0.2)
             expected = "wait" if now < 2.0 else "translate"
             self.assertEqual(self.instruction(executor, now=now).type, expected, now)
-        # After a turn that ends sooner than planned; and where there is no stop between two moves, nobody is held.
+        # After a turn that ends sooner than planned, and if there is no stop between two moves, no robot is held.
         for turn, expected in ((0.5, "wait"), (0.03, "translate")):
             executor = self.executor({"a": actions(("translate", 2.0), ("rotate", turn), ("translate", 2.0))}, early=False)
             executor.report(Report("a", pose(2.0)), 1.9)
@@ -453,7 +453,7 @@ class Courses(unittest.TestCase):
             self.assertAlmostEqual(moves.place_at(t), place)
             if 1.0 < place < 2.0:
                 self.assertAlmostEqual(moves.time_at(place), t)
-        for place in (1.0, 1.0 - 2e-10):  # at rest before the translation, but for rounding
+        for place in (1.0, 1.0 - 2e-10):  # at rest before the translation, except for rounding
             self.assertEqual(moves.time_at(place), 2.0)
         self.assertEqual(moves.planned_speed(1), 2.0)
 

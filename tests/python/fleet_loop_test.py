@@ -1,4 +1,4 @@
-"""The loop with simulated robots: goals are served, nobody is met, and rounds that fail cost nothing but time."""
+"""The loop with simulated robots. Goals are served, no robot is met, and rounds that fail cost only time."""
 
 import json
 import time

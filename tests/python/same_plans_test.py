@@ -1,5 +1,5 @@
-"""The same version gives the same plans on every machine: here, with and without fused multiply-add, for which the C
-library has other sines. With those, one in twenty of these plans differed."""
+"""The same version gives the same plans on every machine. Here, with and without fused multiply-add, for which the C
+library has other sines. With these sines, one in twenty of the plans differed."""
 
 import random
 import unittest

@@ -1,4 +1,4 @@
-"""Vehicles that speak VDA 5050: plans in motion continue their orders, none is refused, and nobody is met."""
+"""Vehicles that speak VDA 5050. Plans in motion continue their orders, no order is refused, and no vehicle is met."""
 
 import json
 import math

@@ -85,8 +85,8 @@ class Flaky:
 
 
 def spoiled(answer, dice):
-    """The answer with one value of another type, so that it is none of the service, and where. (Of the same type it could
-    be one: nobody can tell that a plan without dependencies had some.)"""
+    """The answer with one value of another type, so that it is not an answer of the service, and the place of the
+    value. (With the same type, it could be one: it is impossible to tell that a plan without dependencies had some.)"""
     whole, where = copy.deepcopy(answer), ""
     at, depth = whole, dice.randrange(4)
     while True:
@@ -230,7 +230,7 @@ class Soak:
         self.send(self.loop.cancel(vehicle.name, "somebody wants it"))
 
     def has_told_all(self, vehicle):
-        """What is not told before it restarts nobody can know."""
+        """Events that a vehicle does not tell before it restarts stay unknown."""
         return self.now - vehicle.finished_at > 1.0
 
     def restart(self, vehicle):
@@ -250,7 +250,7 @@ class Soak:
         self.move_by_hand(vehicle, self.dice.uniform(0.1, PUSHED_M), [])
 
     def part(self, vehicle, other):
-        """Two that have met stand there until somebody moves one of them."""
+        """Two vehicles that have met stand there until one of them is moved by hand."""
         if not (vehicle.legs or other.legs or vehicle.name in self.undo):
             self.take_over(vehicle)
             self.move_by_hand(vehicle, self.dice.uniform(0.5, PUSHED_M), [other])
@@ -295,7 +295,7 @@ class Soak:
     # ---------------------------------------------------------------- checks
 
     def check_released(self, message):
-        """The way that is released to a vehicle touches nobody else's."""
+        """The way that is released to a vehicle touches no other vehicle's way."""
         if message.topic != "order":
             return
         vehicle = self.vehicles[message.serial_number]

@@ -131,7 +131,7 @@ class Building:
         return spans
 
     def add_rooms(self, span, bottom, top, door_row):
-        """A row of rooms from wall to wall; those at a crossing keep a wall to it."""
+        """A row of rooms from wall to wall. Rooms at a crossing keep a wall to it."""
         wall = self.floor.cells_of(WALL)
         narrowest = self.floor.cells_of(self.style.rooms[0])
         at, end = span[0] + wall, span[1] - wall

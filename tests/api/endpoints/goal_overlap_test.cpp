@@ -149,8 +149,8 @@ TEST(GoalOverlap, WithoutAStraightWayInLeavesOneRobotUnplanned) {
   EXPECT_THAT(answer["unplanned"][0]["detail"].get<std::string>(), HasSubstr("no straight move leads there"));
 }
 
-/// Robots go into their docks round by round. In one round, wherever they are, one gets another goal, and the
-/// other one none.
+/// Robots go into their docks round by round. In one round, wherever they are, one robot gets another goal,
+/// and the other robot gets none.
 void live(Json request, double step, Json how, int interrupted) {
   for (int round = 0; round < 10; ++round) {
     const Json answer = solved(request);

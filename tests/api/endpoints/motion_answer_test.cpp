@@ -194,7 +194,7 @@ TEST(MotionAnswer, OfAnUnplannedRobotHasItsCommittedActions) {
   EXPECT_EQ(verdict_of(request, answer)["violations"], Json::array());
 }
 
-/// Nobody moves: all robots but the invalid ones are out of time.
+/// No robot moves: all robots except the invalid ones are out of time.
 core::Plan stuck_planner(const core::Problem& problem, const core::PlanOptions& /*options*/,
                          const core::StopCondition& /*stop*/, core::Observer* /*observer*/) {
   core::Plan plan;

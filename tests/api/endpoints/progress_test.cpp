@@ -281,7 +281,8 @@ class Life {
   Dice& dice_;
   std::map<std::string, std::vector<core::Position>> places_;  // by robot
   Json request_;
-  bool has_holds_ = false;  // or else robots that cannot stop at once: who stops before them is run into
+  bool has_holds_ = false;  // otherwise, robots that cannot stop at once: they run into robots that stop
+                            // before them
   double period_ = 1.0;     // seconds
   double way_ = 0.0;        // seconds
   std::map<std::string, int> rounds_;  // since the robot has served a goal, or had none

@@ -129,7 +129,7 @@ double driven(const Json& actions, std::size_t first) {
   return metres;
 }
 
-/// A robot that is so far in its actions, drives, and is not named drives for as long as it needs to stop.
+/// A robot at this progress that drives and is not named drives for as long as it needs to stop.
 void expect_that_it_can_stop(const Json& robot, const Json& actions, std::size_t action, double progress) {
   constexpr double kRounding = 1e-6;
   if (actions[action].at("type") != "translate" || progress == 1.0) return;
@@ -245,7 +245,7 @@ class Life {
     return true;
   }
 
-  /// Robots that nobody has measured, that are not named, and that say nothing of where they stop.
+  /// Robots that were not measured, that are not named, and that say nothing of where they stop.
   void expect_that_they_can_stop(const Json& body) const {
     constexpr double kSetOut = 1e-6;  // less of an action may be about to begin
     std::set<std::string> others;

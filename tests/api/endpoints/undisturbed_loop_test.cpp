@@ -107,8 +107,8 @@ void expect_that_all_may_stop(const Json& request) {
   EXPECT_TRUE(report->violations.empty()) << support::text(*report) << request;
 }
 
-/// Who needs time to stop has a profile wherever it translates, and stands in the end; its start has the
-/// speed with which it begins.
+/// A robot that needs time to stop has a profile wherever it translates, and stands in the end. Its start has
+/// the speed with which it begins.
 void expect_that_they_brake(const Json& request) {
   for (const Json& robot : request.at("robots")) {
     const Json committed = robot.value("committed", Json::array());

@@ -219,7 +219,7 @@ std::optional<JsonTape> parse(std::string_view text) {
   return parse_valid_json(text, 6, 1000, stop);
 }
 
-/// The value as another library has it. Of members with the same key, the last one.
+/// The value as another library has it. If several members have the same key, the last one counts.
 Json json_of(const JsonValue& value) {
   if (value.is_null()) return nullptr;
   if (const auto boolean = value.boolean()) return *boolean;

@@ -20,7 +20,7 @@ using testing::Not;
 
 Json at(double x, double y) { return {{"x", x}, {"y", y}}; }
 
-/// A hall of 8 x 5 m whose lower rows are walls but for a bay at the left, at (-1, 10) in the world.
+/// A hall of 8 x 5 m at (-1, 10) in the world. Its lower rows are walls, except for a bay at the left.
 Json hall_request() {
   Json request = swap_request();
   request["map"] = Json::parse(R"({"resolution": 0.5, "origin": {"x": -1.0, "y": 10.0}, "rows": [

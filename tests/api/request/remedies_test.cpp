@@ -81,8 +81,8 @@ TEST(Remedies, NameTheNearestPlaceOfAGoal) {
   EXPECT_EQ(nearest_place(detail_of(request)), goal(9.55, 1001.8)) << detail_of(request);
 }
 
-/// Goals at random on maps and zones at random: the place that is named is planned with, and hardly any
-/// nearer one fits.
+/// Goals at random on maps and zones at random. A plan exists with the place that is named, and hardly any
+/// nearer place fits.
 TEST(Remedies, NameNearestPlacesThatFitOnAnyMap) {
   core::Random random(50);
   int named = 0;

@@ -27,7 +27,7 @@ inline std::vector<core::Zone> zones_for(support::Dice& dice, const core::Proble
   return zones;
 }
 
-/// Many robots on a small open field, who pass each other as near as their inflation allows.
+/// Many robots on a small open field that pass each other as near as their inflation allows.
 inline support::FleetRequest crowd(support::Dice& dice) {
   const core::OccupancyGrid grid(8 + dice.below(6), 8 + dice.below(6), 1.0);
   support::FleetRequest request{grid, support::random_robots(dice, grid, 12), {}, {}};
@@ -36,7 +36,7 @@ inline support::FleetRequest crowd(support::Dice& dice) {
   return request;
 }
 
-/// Robots that need some way to stop; most of them a short one.
+/// Robots that need some way to stop; most of them need a short way.
 inline void add_stop_distances(support::Dice& dice, Json& json) {
   const double resolution = json.at("map").at("resolution").get<double>();
   for (Json& robot : json.at("robots")) {
@@ -73,7 +73,7 @@ inline void add_accelerations(support::Dice& dice, Json& json) {
 }
 
 /// Some goals may be served where others have goals, too. Robots that stay at their last goals can do so at
-/// their own ones.
+/// their own goals.
 inline void add_open_goals(support::Dice& dice, Json& json) {
   std::vector<Json> places;
   for (Json& robot : json.at("robots")) {

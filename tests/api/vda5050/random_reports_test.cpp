@@ -143,7 +143,7 @@ std::string spoil(Json& state, Dice& dice) {
                                                 R"({"actionStates": [{}]})"};
   const char* wrong = kWrongs[static_cast<std::size_t>(dice.below(static_cast<int>(kWrongs.size())))];
   state.merge_patch(Json::parse(wrong));
-  // A finished order counts whoever is in control, and a mode that clears orders ends one without nodes.
+  // A finished order counts whoever is in control. A mode that clears orders ends an order without nodes.
   if (state["nodeStates"].empty()) state["nodeStates"].push_back({{"sequenceId", 1'000'000}});
   return wrong;
 }

@@ -229,7 +229,7 @@ TEST(Route, ContinuesAnOrderBehindItsCommittedActions) {
   EXPECT_EQ(behind.node_of(6), std::nullopt);
   EXPECT_EQ(behind.node_of(9), std::nullopt);
   EXPECT_EQ(behind.node_of(12), std::nullopt);
-  // What the vehicle is to do where it stands is at a node of its own, as it has the first one already.
+  // What the vehicle is to do where it stands is at a separate node, because it has the first node already.
   const Route before = stitched(1);
   ASSERT_EQ(before.nodes.size(), 3U);
   EXPECT_TRUE(before.nodes[0].stops.empty());

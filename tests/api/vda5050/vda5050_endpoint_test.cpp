@@ -148,7 +148,7 @@ TEST(Vda5050, UpdatesAnOrderFromTheEndOfItsBase) {
     EXPECT_EQ(order["nodes"][0]["sequenceId"], before["last_released_sequence_id"]);
     EXPECT_GT(update["last_released_sequence_id"], before["last_released_sequence_id"]);
   }
-  // Who has not moved on gets nothing.
+  // A vehicle that has not moved on gets nothing.
   body["progress"] = {at_end_of_base(first[0]), at_end_of_base(first[1])};
   for (Json& progress : body["progress"]) progress["action"] = 0, progress["progress"] = 0.0;
   EXPECT_TRUE(orders(body)["orders"].empty());

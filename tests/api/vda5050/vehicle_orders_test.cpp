@@ -23,7 +23,7 @@ using testing::ElementsAre;
 
 struct Refusal {
   const char* error;
-  const char* order_id;  // that the vehicle reports; "=": the one it was sent
+  const char* order_id;  // that the vehicle reports; "=": the order it was sent
   bool is_refused;
 };
 

@@ -137,7 +137,7 @@ TEST(SeveralStates, OfOneVehicleCountByTheirTime) {
       EXPECT_TRUE(reasons_of(answer["vehicles"][0]).empty());
     }
   }
-  // Where nothing tells, the last one counts.
+  // If nothing tells which is newer, the last message counts.
   older.erase("timestamp");
   older.erase("headerId");
   EXPECT_EQ(of_robot(hall.imported({newest, older})["states"], "a")["x"], 2.0);

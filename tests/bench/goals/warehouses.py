@@ -15,8 +15,8 @@ MAKES = [
 
 
 def make_warehouse(seed):
-    """A request: rows of shelves between aisles, a hall below. Robots start at random places and have random goals, but
-    for idle ones, which stand in aisles and in the hall."""
+    """A request: rows of shelves between aisles, a hall below. Robots start at random places and have random goals.
+    Idle robots have none, and stand in aisles and in the hall."""
     rng = random.Random(seed)
     aisles, blocks, length = rng.randint(3, 6), rng.randint(1, 3), rng.choice([9.0, 12.0, 15.0])
     hall, shelf, aisle = rng.choice([6.0, 8.0]), rng.choice([1.0, 1.5]), rng.choice(AISLES)

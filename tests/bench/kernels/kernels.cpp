@@ -123,7 +123,7 @@ void BM_Collide(benchmark::State& state) {
 }
 BENCHMARK(BM_Collide)->ArgName("ramp")->Arg(0)->Arg(1);
 
-/// The reservations of a planned hall, but for the last robots, which ask.
+/// The reservations of a planned hall, without the last robots, which ask.
 class Crowd {
  public:
   explicit Crowd(const Recipe& recipe) : workload_(generate(recipe, 1)), table_(table_of(workload_)) {

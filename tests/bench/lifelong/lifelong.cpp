@@ -157,7 +157,7 @@ class Simulation {
     }
   }
 
-  /// All robots stop where they are; those in service remain in it.
+  /// All robots stop where they are. Robots in service remain in it.
   void stand_still() {
     for (Vehicle& vehicle : fleet_.vehicles()) {
       before_.insert_or_assign(vehicle.id, cut(vehicle.actions, now_).after);

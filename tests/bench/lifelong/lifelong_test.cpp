@@ -24,7 +24,7 @@ LifelongJob job(const char* strategy, std::uint64_t seed = 1) {
   return parse_lifelong_job(line.dump());
 }
 
-/// A simulation in which planning takes no time, so slow builds and busy machines have the same one.
+/// A simulation in which planning takes no time, so it is the same in slow builds and on busy machines.
 LifelongResult run(const char* strategy, std::uint64_t seed = 1) {
   const LifelongResult result = simulate(job(strategy, seed));
   EXPECT_EQ(result.fault, "");

@@ -475,7 +475,7 @@ TEST(AdvancedFleet, ALateRobotStopsThoseThatWouldDriveIntoIt) {
   EXPECT_NEAR(convoy.advance(1.0, 1.0)[1].committed.back().t_end, 0.3, 1e-6);
 }
 
-/// One drives to x = 3 and then aside to y = 3; the other one passes there later, in one long move.
+/// One robot drives to x = 3 and then aside to y = 3. The other robot passes there later, in one long move.
 DrivingFleet crossing(double inflation = 0.0) {
   const Robot first = robot_at(at_x(1.0));
   const Robot second = robot_at({{3.0, -5.0}, 1.5});

@@ -1,4 +1,4 @@
-// Robots that need some way to stop: what is committed of them, and who cannot avoid whom.
+// Robots that need some way to stop: what they are committed to, and which robots cannot avoid each other.
 
 #include <gtest/gtest.h>
 

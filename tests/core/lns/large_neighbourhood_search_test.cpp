@@ -158,7 +158,8 @@ TEST(LargeNeighbourhoodSearch, EndsWhenEveryRobotIsAtItsLowerBound) {
   EXPECT_FALSE(result.cut_off);
 }
 
-/// Small fleets often come to a plan in which nobody has a cheaper way, and stray from one in which some do.
+/// Small fleets often come to a plan in which no robot has a cheaper way, and stray from a plan in which some
+/// do.
 TEST(LargeNeighbourhoodSearch, EndsEarlyOnlyIfNoRobotOfTheBestPlanHasACheaperWay) {
   int exhausted = 0;
   for (std::uint64_t seed = 0; seed < 80; ++seed) {
@@ -248,7 +249,7 @@ TEST(LargeNeighbourhoodSearch, SmoothsInTheLastTenthOfIterations) {
 }
 
 TEST(LargeNeighbourhoodSearch, SaysThatTheTimeBeganToSmooth) {
-  // Time that is over, but for a thread that has waited for the CPU.
+  // Time that is over, except for a thread that has waited for the CPU.
   const auto late = StopCondition(StopCondition::Clock::now() - std::chrono::seconds(1));
   const StopCondition patient = late.with_cpu_time(std::chrono::hours(1));
   Planning p(OccupancyGrid(10, 10, 1.0), roundabout(), iterations(3));

@@ -53,7 +53,7 @@ TEST(ExpectedArrivals, AreAfterThoseWhoHaveNoOtherWay) {
 }
 
 TEST(ExpectedArrivals, AreNotDelayedByThoseWhoLoseLittleOnAnotherWay) {
-  // The way through the lower corridor is as long, but for a few metres.
+  // The way through the lower corridor is as long, except for a few metres.
   Planning p(ascii_map({"....########....",  //
                         "................",  //
                         "....########....",  //

@@ -174,7 +174,7 @@ TEST(Lacam, PlansRandomFleetsOfAnyDensity) {
   }
 }
 
-/// Robots of the second kind do not fit everywhere: nobody may pull them there.
+/// Robots of the second kind do not fit everywhere. No robot may pull them to places where they do not fit.
 TEST(Lacam, KeepsRandomFleetsOfTwoKindsToTheirGraphs) {
   int planned = 0;
   for (std::uint64_t seed = 0; seed < (support::kSanitized ? 100U : 300U); ++seed) {

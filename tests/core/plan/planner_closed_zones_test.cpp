@@ -1,4 +1,4 @@
-// Plans of robots inside of zones that nobody enters, and of robots with goals there.
+// Plans of robots inside zones that no robot enters, and of robots with goals there.
 
 #include <gtest/gtest.h>
 

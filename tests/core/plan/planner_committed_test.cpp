@@ -1,4 +1,4 @@
-// Plans around committed motion and moving obstacles, and what nobody can avoid.
+// Plans around committed motion and moving obstacles, and collisions that no plan can avoid.
 
 #include <gtest/gtest.h>
 

@@ -139,7 +139,7 @@ TEST(PlannerYielding, SeveralRobotsShareALastGoal) {
 }
 
 TEST(PlannerYielding, AQueueLeavesTheWayOutOfAStationFree) {
-  // The station is a bay; whoever waits in front of it would lock the other one in.
+  // The station is a bay. A robot that waits in front of it would lock the other robot in.
   const OccupancyGrid grid = support::ascii_map({"####.####",  //
                                                  ".........",  //
                                                  "........."});

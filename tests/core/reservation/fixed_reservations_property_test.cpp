@@ -122,7 +122,7 @@ class RandomFixed : public testing::TestWithParam<int> {
     return all;
   }
 
-  /// How much nearer than allowed the robot is at this time to the nearest one, metres; negative: farther.
+  /// How much nearer than allowed the robot is at this time to the nearest disk, metres; negative: farther.
   double overlap(const Position& p, double t) const {
     double most = -kSize;
     for (const Other& other : others) {

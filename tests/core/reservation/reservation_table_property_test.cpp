@@ -77,7 +77,7 @@ class RandomReservations : public testing::TestWithParam<int> {
 
   double reach(std::size_t other) const { return radii[querying] + radii[other] - kSearchSlack; }
 
-  /// Merges intervals; those nearer than `gap` belong together.
+  /// Merges intervals. Intervals nearer than `gap` belong together.
   static std::vector<UnsafeInterval> merged(std::vector<UnsafeInterval> intervals, double gap) {
     std::sort(intervals.begin(), intervals.end(),
               [](const auto& a, const auto& b) { return a.begin < b.begin; });

@@ -147,8 +147,8 @@ TEST(Load, TheLargestBodyIsAcceptedWithoutAQueue) {
   }
 }
 
-/// A body of some kilobytes may have a map of many pixels. While such ones are read, small ones of others are
-/// read, too.
+/// A body of some kilobytes may have a map of many pixels. While such bodies are read, small bodies of others
+/// are read, too.
 TEST(Load, SmallBodiesAreReadBesideAnyNumberOfImages) {
   StubService stub;
   Service service = stub.service();

@@ -41,7 +41,7 @@ class Schedules : public testing::Test {
     return job;
   }
 
-  /// A job that shares its turn when it has lasted long, and has asked for one.
+  /// A job that shares its turn when the turn has lasted long. It has asked for a turn.
   Job& sharing(Kind kind, const std::string& client = "client") {
     Job& job = accepted(client);
     EXPECT_EQ(schedule.request_turn(job, {kind, now + 1h, 1.0, false}, now), std::nullopt);

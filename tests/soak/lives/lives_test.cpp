@@ -223,7 +223,8 @@ class EverythingLife {
     return nullptr;
   }
 
-  /// What nobody has disturbed is as planned: the load, the goals that are left, and the rest of the plan.
+  /// Robots that were not disturbed are as planned: the load, the goals that are left, and the rest of the
+  /// plan.
   void expect_that_it_is_kept(const Json& robot, const Json& body, Json& next) const {
     const Json& id = robot.at("id");
     const Json plan = plan_of(id);
@@ -277,7 +278,7 @@ class EverythingLife {
     }));
   }
 
-  /// A robot that has got other goals still changes its load where it is committed to do so.
+  /// A robot that has got new goals still changes its load where it is committed to do so.
   static void expect_that_passed_loads_are_kept(const Json& robot, const Json& plan, double at,
                                                 const Json& left) {
     const Json committed = left.value("committed", Json::array());

@@ -39,7 +39,7 @@ Json lasting(Json answer) {
   return answer;
 }
 
-/// Whether two answers are the same but for rounding of their numbers.
+/// Whether two answers are the same, except for rounding of their numbers.
 bool are_near(const Json& a, const Json& b) {
   if (a.is_number() && b.is_number()) {
     const double x = a.get<double>();

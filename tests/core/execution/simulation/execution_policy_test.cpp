@@ -105,7 +105,8 @@ struct TwoDrivers {
   }
 };
 
-/// However many dependencies there are, the stop condition is asked soon, and the same one many times is one.
+/// However many dependencies there are, the stop condition is asked soon. The same dependency many times
+/// counts once.
 TEST(Dependencies, EndWithTheStopHoweverManyTheyAre) {
   const Dependency one{{1, 0, 0.4}, {0, 0, 0.5}, 0.0};
   const std::vector<Dependency> many(100'000, one);
