@@ -55,8 +55,8 @@ Result<JsonDocument, JsonError> read_json(std::string_view body, int max_depth, 
 std::optional<JsonTape> parse_valid_json(std::string_view text, std::size_t max_depth, std::size_t max_values,
                                          core::Work& work);
 
-/// Returns how many bytes at the begin are plain characters of a JSON string (RFC 8259, section 7): valid
-/// UTF-8 without quotes, backslashes and control characters.
+/// Returns how many bytes at the begin are plain characters of a JSON string (RFC 8259, section 7). Plain is
+/// valid UTF-8 without quotes, backslashes and control characters.
 std::size_t plain_length(std::string_view text);
 
 /// A closed range of numbers, and their unit for messages.

@@ -180,8 +180,8 @@ struct GoalTexts {
 };
 
 /// The actions of a request as they were received, in the world and with their headings as given. An action
-/// is kept only if the core's numbers do not reproduce it, because the map's origin rounds them, or because
-/// the action was joined to the previous action.
+/// is kept only if the core's numbers do not reproduce it. Either the map's origin rounds them, or the action
+/// was joined to the previous action.
 class ReceivedMotion {
  public:
   /// Keeps an action by its index; indices ascend.

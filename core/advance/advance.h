@@ -1,7 +1,7 @@
 #pragma once
 
-// The fleet at a later moment of its plan, in the map frame: the robots of the next request, and whether it
-// can be planned wherever robots were measured.
+// The fleet at a later moment of its plan, in the map frame. It has the robots of the next request, and
+// whether this request can be planned wherever robots were measured.
 
 #include <cstddef>
 #include <optional>

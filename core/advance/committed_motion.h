@@ -31,8 +31,9 @@ std::vector<double> margins_of(const std::vector<Robot>& robots, const std::vect
 /// whatever happens to the plans after the commitments. Robots are stopped only while they drive; a wait
 /// stays committed.
 ///
-/// 1. If a commitment leads into an obstacle, it ends at the last time at which the robot can stop safely: no
-///    obstacle touches it until it stands. If there is no such time, it ends as soon as the robot can stop.
+/// 1. If a commitment leads into an obstacle, it ends at the last time at which the robot can stop safely.
+///    Safely means that no obstacle touches it until it stands. If there is no such time, it ends as soon as
+///    the robot can stop.
 /// 2. No commitment ends before the braking of its robot, unless it collides with another commitment.
 /// 3. Two robots may meet that cannot stop in time, although they would not meet if they went on as planned.
 ///    They are committed to the plan as far as needed. This is their braking from then on.

@@ -32,8 +32,8 @@ TimedProgress planned_progress(const std::vector<Action>& actions, double at);
 Pose planned_pose(const Robot& robot, const std::vector<Action>& actions, double at);
 
 /// Returns the progress that fits a measured pose. It is in the latest action that the plan has begun by this
-/// time, and whose path is near the pose: within the tolerance (metres, and radians of the heading). So a
-/// robot may be late, or early within the action under way. None if there is no such action.
+/// time, and whose path is near the pose. Near is within the tolerance (metres, and radians of the heading).
+/// So a robot may be late, or early within the action under way. None if there is no such action.
 std::optional<TimedProgress> measured_progress(const Robot& robot, const std::vector<Action>& actions,
                                                const Pose& pose, double at, double tolerance);
 
@@ -66,8 +66,8 @@ Remainder remainder_of_measured(const Robot& robot, const std::vector<Action>& a
 Remainder remainder_of_reported(const Robot& robot, const Execution& execution, const TimedProgress& progress,
                                 double at);
 
-/// Returns the first actions in one line, until the robot has driven so many metres or stops: the actions
-/// that follow the first one without a stop. Empty if the first action is no translation.
+/// Returns the first action, and the actions that follow it in one line without a stop, until the robot has
+/// driven so many metres. Empty if the first action is no translation.
 std::vector<Action> driven_until(const std::vector<Action>& actions, double metres);
 
 /// Whether a translation goes on with the next one without a stop.

@@ -28,8 +28,8 @@ struct Corner {
 /// corners that are not visible or not reachable. They never omit a corner that the disk can reach.
 ///
 /// Visibility between corners is computed on first use, and only in the directions of taut paths. A path that
-/// bends around a corner continues in one of the two quadrants beside the blocked cell, neither over the cell
-/// nor straight away from it. Not thread-safe.
+/// bends around a corner continues in one of the two quadrants beside the blocked cell. It leads neither over
+/// the cell nor straight away from it. Not thread-safe.
 class CornerVisibility {
  public:
   /// Finds corners for disks with radii from `least_radius` to `max_radius` (metres, >= 0).

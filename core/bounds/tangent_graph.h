@@ -94,8 +94,8 @@ inline bool may_be_tangent(const TangentEnd& from, const TangentEnd& to) {
 }
 
 /// The tangent, without `to`. None if it does not exist or touches a circle outside its bend. Also none if it
-/// runs along an axis and only grazes the beginning of the bend that it leaves, or the end of the bend where
-/// it arrives. No taut path bends there, because one longer move does the same.
+/// runs along an axis and only grazes a bend: the beginning of the bend that it leaves, or the end of the
+/// other bend. No taut path bends there, because one longer move does the same.
 std::optional<Tangent> common_tangent(const TangentEnd& from, const TangentEnd& to);
 
 /// The tangent graph of a disk of one radius (Liu and Arimoto, IJRR 1992). A taut path cannot be made shorter

@@ -24,9 +24,9 @@ namespace fleetplan::core {
 /// Returns the lattice spacing of each robot, metres. The spacing of the options has precedence. By default,
 /// the spacing is the map's resolution r.
 ///
-/// If r is at most a quarter of the smallest radius that the robot ever has, the spacing is larger: the
-/// largest odd multiple of r up to this radius. It is odd so that vertices are still centres of cells. Robots
-/// of similar radius share a lattice, and no robot's lattice depends on other robots.
+/// Let R be the smallest radius that the robot ever has. If r is at most R / 4, the spacing is larger: the
+/// largest odd multiple of r up to R. It is odd so that vertices are still centres of cells. Robots of
+/// similar radius share a lattice, and no robot's lattice depends on other robots.
 std::vector<double> lattice_spacings(const Problem& problem, const PlanOptions& options);
 
 /// A problem with its options, the lattices, and the moves that walls leave free. None of this changes while

@@ -1,8 +1,8 @@
 #pragma once
 
 // Dependencies between robots, by which they can execute a plan at their own pace. The idea is from action
-// dependency graphs (Hoenig et al., RA-L 2019) and RMTRACK (Cap, Gregoire, Frazzoli, IROS 2016), here for
-// any-angle motion in continuous time (docs/proofs.md, Dependencies).
+// dependency graphs (Hoenig et al., RA-L 2019) and RMTRACK (Cap, Gregoire, Frazzoli, IROS 2016). Here, it is
+// for any-angle motion in continuous time (docs/proofs.md, Dependencies).
 
 #include <compare>
 #include <cstddef>

@@ -17,7 +17,7 @@ namespace fleetplan::core {
 
 /// The shares (u, v) with |p(u) - q(v)| < distance, where p and q move along two segments. Positions are
 /// affine in u and v. So this is the inside of an ellipse, or a strip if the segments are parallel, cut to
-/// the unit square: open in it, and convex. A segment of length 0 is a robot that stands.
+/// the unit square. It is convex, and open in the square. A segment of length 0 is a robot that stands.
 class ConflictRegion {
  public:
   ConflictRegion(const Segment& first, const Segment& second, double distance);

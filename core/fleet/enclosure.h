@@ -22,8 +22,9 @@ struct NarrowPlace {
 /// Finds out whether obstacles and robots that stay for ever close off a robot's goal or its start.
 ///
 /// On its way, the robot's centre crosses borders between cells. Two cells are joined if the robot can cross
-/// their common border: one point of it is far enough from obstacles and from the robots that stay. Cells are
-/// searched from the start and from the goal in turns, so the effort depends on the smaller enclosed area.
+/// their common border. One point of the border must be far enough from obstacles and from the robots that
+/// stay. Cells are searched from the start and from the goal in turns, so the effort depends on the smaller
+/// enclosed area.
 ///
 /// A robot that is closed off has no path, whatever the other robots do. A robot that is not closed off may
 /// have no path either, because the insides of cells are not examined.

@@ -28,8 +28,8 @@ struct MotionBox {
   }
 };
 
-/// Moving disks that never change, as a tree of boxes in space and time: a packed R-tree in the order of a
-/// Z-curve (Kamel and Faloutsos, CIKM 1993). Long motions are entered in pieces, so that their boxes are
+/// Moving disks that never change, as a tree of boxes in space and time. It is a packed R-tree in the order
+/// of a Z-curve (Kamel and Faloutsos, CIKM 1993). Long motions are entered in pieces, so that their boxes are
 /// small. The number of pieces is bounded: a million disks need about 60 MB, whatever the size of the map.
 class MotionTree {
  public:

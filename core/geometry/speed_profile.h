@@ -80,8 +80,8 @@ double elapsed_at(const SpeedProfile& profile, double duration, double distance)
 /// metres (or radians).
 double fastest_between(const SpeedProfile& profile, double first, double last, double length);
 
-/// Returns the parts of a move with this profile in which its acceleration is constant: at most three, each
-/// from the end of the part before. No part is shorter than kSameTime.
+/// Returns the parts of a move with this profile in which its acceleration is constant. There are at most
+/// three, each from the end of the part before. No part is shorter than kSameTime.
 std::vector<TimedSegment> phases(const TimedSegment& move, const SpeedProfile& profile);
 
 }  // namespace fleetplan::core

@@ -2,8 +2,8 @@
 
 namespace fleetplan::core {
 
-/// The overlap, metres, up to which two disks, or a disk and a wall, are in contact. Contact is allowed:
-/// requests may start and end in contact, the search plans from and to such poses, and the check of a plan
+/// The overlap, metres, up to which two disks, or a disk and a wall, are in contact. Contact is allowed.
+/// Requests may start and end in contact, the search plans from and to such poses, and the check of a plan
 /// accepts them. The tolerance is wide enough for plans that went through decimal text and world coordinates:
 /// at 1e9 m, doubles are 1.2e-7 m apart.
 inline constexpr double kContactTolerance = 5e-7;

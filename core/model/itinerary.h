@@ -26,8 +26,8 @@ struct Itinerary {
   std::vector<Visit> visited;  // visits to the goals that the committed actions serve
   std::vector<Goal> goals;     // the goals that follow, the last one included; empty for a parked robot
   std::size_t first_goal = 0;  // the number of goals.front()
-  /// If the committed actions end at rest in the first goal's pose: when that rest begins, and how much of
-  /// the service is done by their end, seconds. This counts only as long as the robot does not leave.
+  /// Set if the committed actions end at rest in the first goal's pose. When that rest begins, and how much
+  /// of the service is done by their end, seconds. This counts only as long as the robot does not leave.
   double arrived = 0.0;
   double service_done = 0.0;
 

@@ -49,8 +49,8 @@ struct PlanningTime {
 ///    Prioritized planning).
 /// 2. If robots are left, plans all in steps (lattice_steps.h). If only a few robots are left, two robots
 ///    make room for each other (making_room.h).
-/// 3. If robots are still given up, starts again in random orders, until all robots are planned, the time is
-///    over, or nothing is left to try.
+/// 3. If robots are still given up, starts again in random orders. This ends when all robots are planned, the
+///    time is over, or nothing is left to try.
 ///
 /// Nothing is left to try if one of these holds:
 ///

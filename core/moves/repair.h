@@ -29,7 +29,7 @@ namespace fleetplan::core {
 /// 4. If it finds no path, or fails too often in this way as well, it is given up: it stays at its start.
 ///
 /// Before all this, robots that yield (Robot::yields) may make way. A robot is planned past them, as if they
-/// left after their own goals, in three cases: it fails, it gains nothing within the horizon, or it costs
+/// left after their own goals, in three cases. It fails, it gains nothing within the horizon, or it costs
 /// much more than alone. If it gains more than they lose, the yielding robots in its way are planned again.
 /// So no robot moves for nothing. A robot that cannot make way stays.
 ///

@@ -23,9 +23,9 @@ struct CheckOfPlan {
   const Plan& checked(const Plan& plan) const { return instead ? *instead : plan; }
 };
 
-/// Checks a plan of the planner until `stop` is met. If the time does not suffice, another plan replaces it:
-/// all robots that would move stay at their starts, or at the end of their commitments. The check of that
-/// plan ends with the stop condition that `last` returns; it is called only then.
+/// Checks a plan of the planner until `stop` is met. If the time does not suffice, another plan replaces it.
+/// In this plan, all robots that would move stay at their starts, or at the end of their commitments. The
+/// check of that plan ends with the stop condition that `last` returns; it is called only then.
 CheckOfPlan check(const Plan& plan, const Problem& problem, const PlanOptions& options,
                   const StopCondition& stop, const std::function<auto()->StopCondition>& last);
 

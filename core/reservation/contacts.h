@@ -52,8 +52,8 @@ class Contacts {
   bool too_many(std::size_t robot) const { return too_many_[robot]; }
   /// The robots whose starts are too near to the start of this robot, ascending.
   std::vector<std::size_t> at_start(std::size_t robot) const;
-  /// By how much the start of this robot is too near to another start, at most: the distance that robots
-  /// keep, minus the distance of the starts.
+  /// By how much the start of this robot is too near to another start, at most. It is the distance that
+  /// robots keep, minus the distance of the starts.
   double deficit(std::size_t robot) const;
 
   /// Whether the robot stands at its start or goal, or moves from its start or to its goal. Returns `none`

@@ -24,9 +24,9 @@ namespace fleetplan::core::budget {
 //  5. First plan: what is left, as long as robots have no plan. Half of it (kShareBeforeSafePlan) is for one
 //     order and its repairs. A fifth of this half (kShareOfOrder) may find the order of expected arrivals.
 //     Steps of the whole fleet have two fifths of what is left (kShareOfSteps).
-//  6. Safe plan, if robots are without a plan after that half: a plan in which no robot is in the way of
-//     others, until nine tenths (kShareWithSafePlan). Then planning goes on until all robots have a plan or
-//     the time is over. Robots that gave way to others return to their previous plans in the last twentieth
+//  6. Safe plan, if robots are without a plan after that half. No robot is in the way of others in it. It is
+//     made until nine tenths (kShareWithSafePlan). Then planning goes on until all robots have a plan or the
+//     time is over. Robots that gave way to others return to their previous plans in the last twentieth
 //     (kShareAroundKept).
 //  7. Smoothing of the first plan: at most three tenths (kShareOfBriefSmoothing). Then unavoidable
 //     collisions: until 150 ms after the budget (kMaxForUnavoidable), because no plan can be checked without

@@ -191,8 +191,8 @@ class Vertices {
     return zones_ == nullptr || zones_->allow(position(from), position(to));
   }
 
-  /// Returns whether the move between two vertices is allowed and obstacles leave the straight line free
-  /// (paper, "Estimating the feasibility of the move w.r.t. static obstacles").
+  /// Returns whether the move between two vertices is allowed and obstacles leave it free (paper, "Estimating
+  /// the feasibility of the move w.r.t. static obstacles").
   bool in_sight(int from, int to) const { return is_free(from, to) && allow(from, to); }
 
   /// Calls visit(vertex) for every neighbour that one lattice move or link reaches from `vertex`.

@@ -93,10 +93,10 @@ inline constexpr std::size_t kMaxViolations = 10'000;
 /// - speed: faster than the robot. The speed, and the robot's speed. For an action without duration, the
 ///   duration, and the shortest possible one. Also a translation that leads off the line of its heading
 ///   (forwards or backwards): by how many metres, and 0.
-/// - profile: a robot with limited acceleration has no profile of speed, or a wrong one: it cannot follow it,
-///   or it does not lead from one pose to the other. A speed, and the required speed; or the length (or
-///   angle) that the profile covers, and the length of the action; or a duration, and the shortest possible
-///   one.
+/// - profile: a robot with limited acceleration has no profile of speed, or a wrong one. The robot cannot
+///   follow it, or it does not lead from one pose to the other. A speed, and the required speed. Or the
+///   length (or angle) that the profile covers, and the length of the action. Or a duration, and the shortest
+///   possible one.
 /// - wrong_start, wrong_goal: the distance of the first or the resting pose from the required pose, and 0.
 ///   Parked robots must rest at their start or committed end, in any heading. A robot without a plan is
 ///   unplanned, which is allowed.

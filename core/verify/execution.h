@@ -1,8 +1,8 @@
 #pragma once
 
-// How robots execute their plans, valid or not: where each robot is at every time from 0 on, and when its
-// motion becomes the planner's own. A robot whose radius changes is a sequence of disks. Obstacles move in
-// the same way.
+// How robots execute their plans, valid or not. It tells where each robot is at every time from 0 on, and
+// when its motion becomes the planner's own. A robot whose radius changes is a sequence of disks. Obstacles
+// move in the same way.
 
 #include <cstddef>
 #include <limits>
@@ -92,7 +92,7 @@ struct Handover {
   double leaves = std::numeric_limits<double>::infinity();
   double first_move_ends = std::numeric_limits<double>::infinity();
 
-  /// Whether a leg that ends at `t_end` belongs to the commitment; and whether a leg that begins at `t_begin`
+  /// Whether a leg that ends at `t_end` belongs to the commitment. And whether a leg that begins at `t_begin`
   /// follows the stay at the commitment's end.
   bool commits(double t_end) const { return t_end <= committed_until; }
   bool plans(double t_begin) const { return t_begin >= leaves; }
@@ -113,7 +113,7 @@ struct SizedLegs {
 std::vector<SizedLegs> sized_legs_of(const CarriedLoads& loads, std::vector<Leg> legs);
 
 /// Robots that execute their plans. All lists are in the same order. A position in them is not the index of
-/// the robot: a robot whose radius changes has several positions, one after the other, each for its own time
+/// the robot. A robot whose radius changes has several positions, one after the other, each for its own time
 /// (see sized_legs_of).
 struct ExecutedFleet {
   std::vector<std::size_t> robots;  // indices of the robots, ascending

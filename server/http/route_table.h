@@ -1,7 +1,7 @@
 #pragma once
 
-// The routes of a port, as routes.cpp declares them. They give the handler of a request, the decision before
-// a body is read (404, 405 and its Allow field), and the label of the metrics.
+// The routes of a port, as routes.cpp declares them. They give the handler of a request and the label of the
+// metrics. They also give the decision before a body is read (404, 405 and its Allow field).
 
 #include <functional>
 #include <string>

@@ -94,8 +94,8 @@ class Disposal {
 /// Runs jobs: requests that take time, such as a plan or a check. Accepts no more jobs than the queue holds.
 /// Stops jobs whose client has left. Thread-safe.
 ///
-/// A job waits twice: for a slot, in which its body is decoded and parsed, and for its turn, in which its
-/// answer is made and coded.
+/// A job waits twice. First, it waits for a slot, in which its body is decoded and parsed. Then, it waits for
+/// its turn, in which its answer is made and coded.
 class JobRunner {
  public:
   /// Runs jobs as the settings say. The log must outlive it.

@@ -22,13 +22,13 @@ namespace fleetplan::server {
 ///   improvements are paused as there are workers. Further improvements end with what they have.
 /// - **Long turns are shared.** A job that goes on for long, such as a simulation, gives its turn to a job
 ///   that waits. It gets a turn again in the order of turns, as if it had just asked, and loses no work. A
-///   client's jobs that wait for their first turn come before its interrupted jobs. While as many jobs are
-///   paused or interrupted as there are workers, the turn goes only to one of these, or to a job that does
-///   not share its turns. With one more, it goes only to one of these. So jobs that share their turns do not
-///   keep other jobs out, however many they are.
+///   client's jobs that wait for their first turn come before its interrupted jobs. Suppose that as many jobs
+///   are paused or interrupted as there are workers. Then the turn goes only to one of these, or to a job
+///   that does not share its turns. With one more, it goes only to one of these. So jobs that share their
+///   turns do not keep other jobs out, however many they are.
 /// - **Large plans make room for small ones.** A job that takes long to its first plan gives its turn to a
-///   job that plans for far fewer robots, or to a check that is expected to be short. It is the next to get a
-///   turn again. Plans of similar size do not share: each would take as long as all of them.
+///   much smaller job: a plan for far fewer robots, or a check that is expected to be short. It is the next
+///   to get a turn again. Plans of similar size do not share: each would take as long as all of them.
 /// - **Order.** Turns go round the clients. Next is the client with the fewest turns, then the client whose
 ///   last turn is the longest ago. Among a client's jobs, and among clients without a turn so far, the job
 ///   with the earliest deadline is next.

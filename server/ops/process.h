@@ -42,8 +42,8 @@ struct ProcessStats {
 
 ProcessStats process_stats();
 
-/// Returns the number of processors that this process may use: the smaller of its affinity and the CPU quota
-/// of its control groups (v2 or v1). It is rounded down, and at least 1.
+/// Returns the number of processors that this process may use. It is the smaller of its affinity and the CPU
+/// quota of its control groups (v2 or v1). It is rounded down, and at least 1.
 int cpus_granted();
 
 /// Returns the smallest CPU quota, in processors, of the process's control groups and the groups above them.

@@ -23,7 +23,7 @@ struct Fleet;
 /// checker decides later whether the plans are valid.
 ///
 /// Open goals get the poses that the visits of the plans name. Otherwise, they get the poses at which the
-/// actions serve them first: the actions of the plan, or the committed actions if there is no plan.
+/// actions serve them first. These are the actions of the plan, or the committed actions if there is no plan.
 std::vector<core::RobotPlan> parse_plans(const JsonReader& member, std::vector<ParsedRobot>& robots,
                                          const WorldFrame& frame);
 

@@ -47,8 +47,9 @@ bool is_inside(const std::vector<Position>& corners, const Position& point);
 /// Whether a point is inside and farther than `depth` metres from the border.
 bool is_deep_inside(const std::vector<Position>& corners, const Position& point, double depth);
 
-/// Returns the first point of a segment (or a point, if `from` == `to`) that is nearest to a simple polygon
-/// with its inside, and their distance. If the segment enters the polygon, this is the first point inside.
+/// Returns the first point of a segment that is nearest to a simple polygon with its inside, and their
+/// distance. If `from` == `to`, the segment is a point. If the segment enters the polygon, this is the first
+/// point inside.
 NearestPoint nearest_to_polygon(const Position& from, const Position& to,
                                 const std::vector<Position>& corners);
 

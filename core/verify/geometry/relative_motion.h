@@ -120,8 +120,8 @@ struct ShiftedMoment {
   double t_second = 0.0;
 };
 
-/// Returns the least distance between a position of leg `a` at a time within `first` and a position of leg
-/// `b` at a time within `second`. The two times may differ by up to `margin`. All times are finite.
+/// Returns the least distance between leg `a` at a time within `first` and leg `b` at a time within `second`.
+/// The two times may differ by up to `margin`. All times are finite.
 ///
 /// Exact up to rounding for straight legs. For legs that bend, exact up to kSamePosition, or up to a
 /// hundredth of `enough` (metres) if the distance is less than `enough`. Otherwise, returns infinity or any

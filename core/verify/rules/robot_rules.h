@@ -51,8 +51,8 @@ std::vector<Violation> check_terminals(const Robot& robot, const RobotPlan& plan
                                        GoalsLeft goals_left);
 
 /// Checks that the robot visits its goals in their order (`wrong_visit`). It must rest in the pose of each
-/// goal, from `not_before` on, for the whole service; at the last goal, at the end of its plan. Rests are
-/// uninterrupted waits, or the instants between two actions.
+/// goal, from `not_before` on, for the whole service. At the last goal, this rest must be at the end of its
+/// plan. Rests are uninterrupted waits, or the instants between two actions.
 ///
 /// Reports the first goal that is not visited. Also reports each visit that does not take place, and each
 /// `goal` of a wait that is not committed and does not serve it. Whether the robot ends at its last goal is
@@ -67,8 +67,8 @@ std::size_t goals_served_by_commitment(const Robot& robot, const Tolerance& tole
 /// Returns the distance of a position from the nearest obstacle, at most `reach` metres.
 double distance_from_walls(const ObstacleField& field, const Position& position, double reach);
 
-/// Returns the distance from obstacles that a robot has to keep during each of its legs, metres: its radius,
-/// and the inflated radius after its commitment. There are three exceptions:
+/// Returns the distance from obstacles that a robot has to keep during each of its legs, metres. It is the
+/// robot's radius, and after its commitment the inflated radius. There are three exceptions:
 ///
 /// - A robot may begin nearer, as the rules allow. It comes no nearer until one of its straight moves ends
 ///   clear.
@@ -82,9 +82,9 @@ std::vector<double> distances_to_keep(const std::function<double(const Position&
                                       const Handover& handover, bool ends_in_goal, double tolerance,
                                       const CheckRules& rules);
 
-/// Reports where a disk overlaps obstacles by more than the tolerance: one violation for each leg, or for
-/// consecutive legs through which the overlap continues. `legs` are a result of `execute`; `radii` are the
-/// disk's radii in each leg. Ends early when `stop` is met.
+/// Reports where a disk overlaps obstacles by more than the tolerance. There is one violation for each leg,
+/// or for consecutive legs through which the overlap continues. `legs` are a result of `execute`; `radii` are
+/// the disk's radii in each leg. Ends early when `stop` is met.
 ViolationList check_obstacles(const ObstacleField& field, std::size_t robot, const std::vector<double>& radii,
                               const std::vector<Leg>& legs, double tolerance, const StopCondition& stop);
 
@@ -102,8 +102,8 @@ class ZonesOfRobot {
   /// robot may leave do not count.
   double distance_to_blocked(const Position& position, double reach) const;
 
-  /// Returns the number of the first goal, from `first` on, that is put off: the robot would be inside a zone
-  /// there that it may leave but not enter. None if there is no such goal. Near the border, within the
+  /// Returns the number of the first goal, from `first` on, that is put off. There, the robot would be inside
+  /// a zone that it may leave but not enter. None if there is no such goal. Near the border, within the
   /// tolerance (metres), the goal may be visited or put off: it is put off unless `visits(goal)`.
   std::optional<std::size_t> first_goal_put_off(const Robot& robot, std::size_t first, double tolerance,
                                                 const std::function<bool(std::size_t)>& visits) const;

@@ -3,7 +3,7 @@
 // The head of an HTTP/1.x request: request line and header fields, parsed strictly (RFC 9112). Input that two
 // parsers read differently allows request smuggling.
 //
-// Also the characters of fields and trailers (RFC 9110, 5.6), and two ids by which a request is found in
+// Also the characters of fields and trailers (RFC 9110, 5.6). Also two ids by which a request is found in
 // logs: its own id, and the id of its trace.
 
 #include <algorithm>
