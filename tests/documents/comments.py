@@ -6,12 +6,13 @@ Usage: comments.py prints the measures per folder and of the 40 files that are w
 import ast
 import collections
 import io
+import os
 import pathlib
 import re
-import subprocess
 import tokenize
 
 PROJECT = pathlib.Path(__file__).resolve().parent.parent.parent
+NOT_OURS = {"node_modules", "__pycache__", "build"}  # folders
 FOLDERS = ("include", "core", "api", "library", "server", "web", "tests", "scripts", "clients")
 PHRASES = re.compile(r"\b(one that|those that|that of|those of|none of them|another one)\b", re.IGNORECASE)
 LONG = 30  # words; a longer sentence is long
@@ -29,8 +30,12 @@ Comment = collections.namedtuple("Comment", "file line text")  # the line where 
 
 def sources():
     """The files with comments of the project, by their paths from its root."""
-    listed = subprocess.run(["git", "ls-files", "--", *FOLDERS], cwd=PROJECT, capture_output=True, text=True, check=True)
-    return [name for name in listed.stdout.splitlines() if language(name)]
+    found = []
+    for root in FOLDERS:
+        for folder, inner, files in os.walk(PROJECT / root):
+            inner[:] = sorted(set(inner) - NOT_OURS)
+            found += [(pathlib.Path(folder) / file).relative_to(PROJECT).as_posix() for file in sorted(files)]
+    return [name for name in found if language(name)]
 
 
 def language(name):
@@ -103,8 +108,8 @@ def _without_markers(comment):
 
 
 def sentences(comment):
-    """The sentences of a comment. Paragraphs and items of lists end one; what is indented further, such as pseudo-code
-    and commands, is none."""
+    """The sentences of a comment. Paragraphs and items of lists end one; lines that are indented, such as
+    pseudo-code and commands, are no sentences."""
     paragraphs, own = [[]], False
     for line in comment.text.split("\n"):
         item = re.match(r"\s*(?:[-*]|\d+\.|@\w+) +", line)
@@ -114,14 +119,14 @@ def sentences(comment):
         elif not line.strip():
             paragraphs.append([])
             own = False
-        elif re.match(r" {3,}", line) and not own:
+        elif re.match(r" {2,}", line) and not own:
             paragraphs.append([])
         else:
             paragraphs[-1].append(line)
     for lines in paragraphs:
         text = " ".join(" ".join(lines).split())
         text = re.sub(r"\b(e\.g|i\.e|cf|vs|etc|w\.r\.t)\.", r"\1", text)
-        for sentence in re.split(r"(?<=[.!?])[)\"]?\s+(?=[A-Z`0-9(*\"])", text):
+        for sentence in re.split(r"(?<=[.!?])[)\"*]*\s+(?=[A-Z`0-9(*\"])", text):
             if re.search(r"[A-Za-z]{2}", sentence):
                 yield sentence
 
