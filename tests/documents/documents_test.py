@@ -17,6 +17,8 @@ import unittest
 import urllib.error
 import urllib.request
 
+import words
+
 PROJECT = pathlib.Path(__file__).resolve().parent.parent.parent
 DOCUMENTS = {str(path.relative_to(PROJECT)): path.read_text()
              for path in [*PROJECT.glob("*.md"), *PROJECT.glob("docs/*.md")]}
@@ -403,6 +405,13 @@ class Names(unittest.TestCase):
         (required,) = stated("examples/CMakeLists.txt", r"find_package\(fleetplan (\S+)")
         self.assertTrue(version.startswith(required + "."), required)
 
+    def test_the_packages_are_those_of_the_scripts(self):
+        library = (PROJECT / "scripts/lib.sh").read_text()
+        lists = {name: [package.split(":")[0] for package in packages.split()]
+                 for name, packages in re.findall(r"^(\w+)_PACKAGES=\((.*?)\)", library, re.MULTILINE | re.DOTALL)}
+        wanted = [lists["BUILD"], lists["UNIT_TEST"], lists["TEST"], lists["CHECK"] + lists["FUZZ"]]
+        self.assertEqual([code(row[1]) for row in table("CONTRIBUTING.md", ["for", "packages"])], wanted)
+
     def test_every_path_that_is_named_exists(self):
         folders = "|".join(sorted(p.name for p in PROJECT.iterdir() if p.is_dir() and p.name not in (".git", "build")))
         for name, text in DOCUMENTS.items():
@@ -454,6 +463,37 @@ class Names(unittest.TestCase):
                 if heading:
                     headings = re.findall(r"^#+ (.*)$", prose(file.read_text()), re.MULTILINE)
                     self.assertIn(heading, [anchor(h) for h in headings], f"{name} links to {target}")
+
+
+class Words(unittest.TestCase):
+    """The documents are read once: few phrases that point back, few long sentences."""
+
+    MAX_PHRASES = 30  # in all documents together
+    MAX_LONG_SHARE = 0.1  # of the sentences of a page
+    MAX_MEAN = 20.0  # words a sentence of a page
+
+    @classmethod
+    def setUpClass(cls):
+        cls.pages = {name: words.measure(text) for name, text in DOCUMENTS.items()}
+        print(words.table())
+
+    def test_few_phrases_point_back(self):
+        self.assertLess(sum(phrases for phrases, *_ in self.pages.values()), self.MAX_PHRASES)
+
+    def test_few_sentences_are_long(self):
+        self.assertEqual([name for name, (_, _, _, share) in self.pages.items() if share >= self.MAX_LONG_SHARE], [])
+
+    def test_sentences_are_short_in_the_mean(self):
+        self.assertEqual([name for name, (_, _, mean, _) in self.pages.items() if mean > self.MAX_MEAN], [])
+
+    def test_the_measure_counts_sentences_of_paragraphs_items_and_cells(self):
+        text = "\n".join(["# A heading does not count", "", "The `first code` has [two words](u.md)", "and more. Next.", "",
+                          "- An item", "  of a list", "- is its own sentence", "", "```", "not this, none of them", "```", "",
+                          "| a | cell of four words |", "|---|---|", "| one that is short | 2 |"])
+        self.assertEqual([count for count, _ in words.sentences(text)], [7, 1, 5, 4, 4, 4])
+        self.assertEqual(len(words.phrases(text)), 1)
+        long = " ".join(["word"] * 31) + ". Short."
+        self.assertEqual(words.measure(long), (0, 2, 16.0, 0.5))
 
 
 del DocumentTest  # not a test of its own
