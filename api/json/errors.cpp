@@ -285,14 +285,15 @@ constexpr std::array<ErrorRow, 21> kTable{{
      "The request needs more memory than `max_plan_memory` of `GET /v1/limits`, so that there is not even a "
      "partial plan."},
     {ErrorCode::parse_unfinished, 422, "parse_unfinished", "Request Not Read",
-     "Reading the body took more than a second of CPU time before the time budget was read, more than three "
-     "seconds in all, or more than the budget: the request is too large for this service."},
+     "The request is too large for this service: reading the body took more CPU time than allowed. This is "
+     "one "
+     "second before the time budget is read, three seconds in all, or the budget."},
     {ErrorCode::head_too_large, 431, "head_too_large", "Request Header Fields Too Large",
      "The head of the request is larger than 32 KiB, or has more than 100 fields."},
     {ErrorCode::internal_error, 500, "internal_error", "Internal Server Error",
      "A bug of the service, such as a plan that its checker rejected."},
     {ErrorCode::overloaded, 503, "overloaded", "Service Unavailable",
-     "The queue is full, the time budget would be spent in the queue, or the large bodies being received "
+     "The queue is full, or the time budget would be spent in the queue. Or large bodies that arrive at once "
      "would take too much memory together, or the process has no memory left."},
     {ErrorCode::draining, 503, "draining", "Service Unavailable", "The service is shutting down."},
 }};

@@ -79,9 +79,10 @@ constexpr std::array<OptionRow, 23> kTable{{
     {"mode", "Mode", "", one_of<&PlanOptions::mode>(kModes),
      "`first` returns the first solution; `anytime` uses the rest of the budget to improve the objective."},
     {"objective", "Objective", "", one_of<&PlanOptions::objective>(kObjectives),
-     "What `anytime` minimizes: the sum of the robots' costs, each times its `weight`; the greatest cost; or "
-     "the sum of how much later than `due` they arrive at goals, each times `weight`, and among equal ones "
-     "the first."},
+     "What `anytime` minimizes. `flowtime`: the sum of the robots' costs, each times its `weight`. "
+     "`makespan`: "
+     "the greatest cost. `tardiness`: the sum of how much later than `due` they arrive at goals, each times "
+     "`weight`; among plans of equal tardiness, the lower flowtime."},
     {"seed", "Seed", "", NaturalOption{kMaxSeed, &PlanOptions::seed}, "Seed of all random choices."},
     {"priority", "Initial order", "", one_of<&PlanOptions::priority>(kPriorities),
      "The initial order in which robots are planned. Later robots give way to earlier ones."},
@@ -94,8 +95,7 @@ constexpr std::array<OptionRow, 23> kTable{{
      "`horizon`."},
     {"inflation", "Inflation", "m", RealOption{kLengthOrZero, &PlanOptions::inflation},
      "Metres added to every radius during planning. A robot that is too near to others at its start may "
-     "leave, "
-     "but comes no nearer; one that fits its goal only without the inflation stays unplanned."},
+     "leave, but comes no nearer. A robot that fits its goal only without the inflation stays unplanned."},
     {"wait_before_move", "Wait before a move", "s", RealOption{kDuration, &PlanOptions::wait_before_move},
      "Seconds that a robot stands still before every translation, already turned."},
     {"any_angle", "Any angle", "", BooleanOption{&PlanOptions::any_angle},
@@ -127,9 +127,9 @@ constexpr std::array<OptionRow, 23> kTable{{
      "Metres by which robots may overlap a wall at their last goals, as in docks, inflation included. They "
      "come no nearer than they are there on their straight way in, and may start there the next time."},
     {"invalid_robots", "Invalid robots", "", one_of_invalid_robots(),
-     "What to do with robots whose poses or committed actions collide: `refuse` answers 422; `report` lists "
-     "them in `unplanned` with the reason `invalid` and their `errors`, as obstacles at their starts, and "
-     "plans the others."},
+     "What to do with robots whose poses or committed actions collide. `refuse` answers 422. `report` lists "
+     "them in `unplanned` with the reason `invalid` and their `errors`. They are obstacles at their starts, "
+     "and the others are planned."},
     {"lattice_spacing", "Lattice spacing", "m", ChosenOption{kLength, &PlanOptions::lattice_spacing},
      "Metres between the points at which robots may stop besides their starts and goals. By default, the "
      "resolution of the map; for a robot whose radius is at least four cells, about this radius. Clearance "
@@ -139,8 +139,10 @@ constexpr std::array<OptionRow, 23> kTable{{
      "when robots execute the plan at their own pace. See docs/execution.md."},
     {"dependency_slack", "Slack of dependencies", "s",
      AnswerRealOption{kSlackInTime, &ParsedOptions::dependency_slack},
-     "Seconds by which a robot on time reaches what another one must wait for before that one comes there; "
-     "a dependency may have half of it. Smaller than `interval_margin`."},
+     "Slack of each dependency in seconds: if robots are on time, the robot that opens a gate does so by "
+     "this "
+     "time before the other robot comes there. A dependency may have half of it. Smaller than "
+     "`interval_margin`."},
     {"execution_margin", "Margin of execution", "m",
      AnswerRealOption{kLengthOrZero, &ParsedOptions::execution_margin},
      "Metres added to the radius of each robot in dependencies, unless it has its own `execution_margin`: "
