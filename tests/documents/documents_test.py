@@ -465,6 +465,37 @@ class Names(unittest.TestCase):
                     self.assertIn(heading, [anchor(h) for h in headings], f"{name} links to {target}")
 
 
+class KeptAnswers(DocumentTest):
+    """What docs/compatibility.md promises: requests of earlier releases are accepted, members of answers stay."""
+
+    KEPT = sorted((PROJECT / "tests" / "compatibility").glob("*/*.json"))
+
+    @classmethod
+    def members(cls, node, path=""):
+        """The types of each member, by its path without numbers of items."""
+        found = {path: {"number" if type(node) in (int, float) else type(node).__name__}}
+        children = (node.items() if isinstance(node, dict) else
+                    [("[]", item) for item in node] if isinstance(node, list) else [])
+        for key, child in children:
+            for place, types in cls.members(child, f"{path}/{key}").items():
+                found.setdefault(place, set()).update(types)
+        return found
+
+    def test_requests_of_earlier_releases_get_answers_with_the_same_members(self):
+        self.assertGreater(len(self.KEPT), 10)
+        for file in self.KEPT:
+            with self.subTest(str(file.relative_to(PROJECT))):
+                kept = json.loads(file.read_text())
+                before = self.members(kept["answer"])
+                now = self.members(self.post(kept["path"], kept["request"]))
+                self.assertEqual([place for place in before if place not in now], [])
+                self.assertEqual([place for place in before if not before[place] & now[place]], [])
+
+    def test_a_member_that_is_missing_or_of_another_type_is_found(self):
+        self.assertEqual(self.members({"a": [1, {"b": None}]}),
+                         {"": {"dict"}, "/a": {"list"}, "/a/[]": {"number", "dict"}, "/a/[]/b": {"NoneType"}})
+
+
 class Words(unittest.TestCase):
     """The documents are read once: few phrases that point back, few long sentences."""
 
