@@ -262,7 +262,7 @@ constexpr std::array<Command, 10> kCommands{{
     {"matrix", "Tell how long a robot takes between poses", &Service::matrix},
     {"assign", "Give tasks to robots", &Service::assign},
     {"export-vda5050", "Turn plans into orders of VDA 5050", &Service::vda5050},
-    {"import-vda5050", "Turn states of VDA 5050 into those of robots", &Service::import_vda5050},
+    {"import-vda5050", "Turn states of VDA 5050 into states of robots", &Service::import_vda5050},
 }};
 
 /// The meaning of the arguments of a command.
