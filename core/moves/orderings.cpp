@@ -192,8 +192,9 @@ class Restarts {
       return this->attempt(0.0);
     }
     if (attempt.trajectories.size() >= best_.trajectories.size()) best_ = std::move(attempt);
-    if (result_.cut_off && on_stop_ && on_stop_(restore(state_.reservations(), best_), result_.given_up)) {
-      return this->attempt(start_delay);
+    if (result_.cut_off && on_stop_) {
+      result_.unsolved = restore(state_.reservations(), best_);
+      if (on_stop_(result_)) return this->attempt(start_delay);
     }
     return failed_.has_value();
   }

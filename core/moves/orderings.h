@@ -69,12 +69,6 @@ class OrderSequence {
   std::set<PriorityOrder> tried_;
 };
 
-/// Called when the stop condition of an attempt is met, with the robots that are unsolved or given up.
-/// Returns whether the attempt goes on, with the same reservations. If it does, the stop condition is no
-/// longer met.
-using OnStop =
-    std::function<bool(const std::vector<std::size_t>& unsolved, const std::vector<std::size_t>& given_up)>;
-
 /// The outcome of planning robots in one or more priority orders. The trajectories are in the PlanState.
 struct OrderingResult {
   std::vector<std::size_t> unsolved;  // robots without a trajectory, by priority; to be planned once more
@@ -87,12 +81,14 @@ struct OrderingResult {
   std::optional<StepsOutcome> steps = {};  // of the last plan in steps, if there was any
 };
 
-/// Plans all robots of `order`. Whenever a robot fails, starts again in another order (paper, section
-/// Prioritized planning). Ends when all have a trajectory, all orders have failed, or `stop` is met. Leaves
-/// the state of the attempt that planned the most robots.
-///
-/// If all orders fail, tries some random orders in which the first robot starts late. When `stop` is met,
-/// `on_stop` (if given) decides whether to go on.
+/// Called when the stop condition of an attempt is met, with what it has come to. Returns whether the attempt
+/// goes on, with the same reservations; then the stop condition is no longer met.
+using OnStop = std::function<bool(const OrderingResult& so_far)>;
+
+/// Plans all robots of `order`; whenever one fails, starts again in another order (paper, section Prioritized
+/// planning). Ends when all have a trajectory, all orders have failed, or `stop` is met, and leaves the state
+/// of the attempt that planned the most robots. If all orders fail, tries some random ones in which the first
+/// robot starts late. When `stop` is met, `on_stop` decides, if there is one, whether to go on.
 OrderingResult plan_with_restarts(PlanState& state, PriorityOrder order, Random& random,
                                   const StopCondition& stop, ProgressReport& progress,
                                   const OnStop& on_stop = nullptr);

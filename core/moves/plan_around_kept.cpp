@@ -90,10 +90,8 @@ class PlanningAroundKept {
 
   /// Repairs the plan. Returns whether all robots are planned.
   bool repaired() {
-    const OnStop keep_plan = [this](const auto& unsolved, const auto& given_up) {
-      return keep_safe_plan(unsolved, given_up);
-    };
-    const OrderingResult ordering = repair_around(state_, order(), random_, stop_, progress_, keep_plan);
+    const Pace pace{[this](const OrderingResult& so_far) { return keep_safe_plan(so_far); }, {}};
+    const OrderingResult ordering = repair_around(state_, order(), random_, stop_, progress_, pace);
     progress_.count_by_priorities(others_);
     result_.attempts = ordering.attempts;
     result_.cut_off = ordering.cut_off || in_second_part_;
@@ -126,11 +124,12 @@ class PlanningAroundKept {
 
   /// Keeps a safe plan at the end of the first part of the time, and returns to where planning was. Returns
   /// whether planning goes on.
-  bool keep_safe_plan(const std::vector<std::size_t>& unsolved, const std::vector<std::size_t>& given_up) {
+  bool keep_safe_plan(const OrderingResult& so_far) {
     if (in_second_part_ || time_.all.met()) return false;
     in_second_part_ = true;
     const FleetReservations::Snapshot before = reservations_.snapshot();
-    keep_if_better(make_safe(state_, unsolved, given_up, Effort::brief, time_.keeping, progress_));
+    keep_if_better(
+        make_safe(state_, so_far.unsolved, so_far.given_up, Effort::brief, time_.keeping, progress_));
     if (best_.plan.staying.empty()) return false;
     reservations_.restore(before);
     stop_ = time_.all;

@@ -1,6 +1,8 @@
 #include "core/moves/prioritized_planning.h"
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <iterator>
 #include <new>
 #include <optional>
@@ -26,8 +28,19 @@ constexpr std::size_t kFewRobots = 4;
 constexpr int kMaxOrdersWithoutDeadline = 10;
 /// The most robots that are planned again, one after the other, after a plan in steps.
 constexpr std::size_t kMaxReplanned = 16;
-/// The failed attempts after which robots of different sizes are planned again in the order of sizes, if they
-/// were planned in another order.
+/// Vertices times robots: so many distances take some tenths of a second.
+constexpr std::int64_t kFewDistances = 10'000'000;
+/// Metres that are added to the way of each robot, in estimates of the time that its plan takes.
+constexpr double kLeastWay = 1.0;
+/// How many times as long as estimated the rest of planning may take.
+constexpr double kReserve = 1.15;
+/// Planning ends soon if that takes at most one in so many parts of the time.
+constexpr int kTimesSoon = 4;
+/// More failures than one for so many robots are a crowd, in which the last robots take longer than
+/// estimated.
+constexpr std::int64_t kRobotsPerFailure = 50;
+/// The failed attempts after which robots of different sizes are planned again in that order, if they were
+/// planned in another one.
 constexpr std::int64_t kMaxFailures = 15;
 
 /// Plans every robot once, in the given order.
@@ -73,6 +86,8 @@ PrioritizedResult all_unplanned(const std::vector<std::size_t>& movers) {
 }
 
 class PrioritizedPlanning {
+  using Clock = StopCondition::Clock;
+
  public:
   PrioritizedPlanning(PlanState& state, const std::vector<std::size_t>& movers, Random& random,
                       const PlanningTime& time, ProgressReport& progress)
@@ -82,7 +97,10 @@ class PrioritizedPlanning {
         progress_(progress),
         order_(initial_order(state.instance(), movers, random)),
         steps_(state.reservations(), random, progress),
-        stop_(time.first_part) {
+        stop_(time.first_part),
+        begin_(Clock::now()),
+        half_(after_share(time.all, budget::kShareBeforeSafePlanOfCrowd)),
+        next_look_(after_share(time.all, budget::kShareOfLook)) {
     if (is_by_arrival()) order_by_arrival();
     const bool may_stop = state.instance().options().horizon && !order_.empty();
     if (may_stop && state.instance().itinerary(order_.front()).goal_age > 0.0) {
@@ -128,22 +146,23 @@ class PrioritizedPlanning {
   OrderingResult plan_in_orders() {
     const auto reordering = state_.instance().options().reordering;
     if (reordering == PlanOptions::Reordering::none) return plan_each_once(state_, order_, stop_, progress_);
-    const OnStop keep_plan = [this](const auto& unsolved, const auto& given_up) {
-      return keep_safe_plan(unsolved, given_up);
-    };
+    const OnStop keep_plan = [this](const OrderingResult& so_far) { return keep_safe_plan(so_far); };
+    const Pace pace{keep_plan, [this] { return !best_ && next_look_.met(); }};
     if (restarts()) {
       return plan_with_restarts(state_, order_, random_, stop_, progress_, keep_plan);
     }
     if (!is_by_arrival() && !state_.instance().options().horizon &&
         differ_in_size(state_.instance(), order_)) {
       if (auto result =
-              repair_unless(kMaxFailures, state_, order_, steps_, random_, stop_, progress_, keep_plan)) {
+              repair_unless(kMaxFailures, state_, order_, steps_, random_, stop_, progress_, pace)) {
         return std::move(*result);
       }
       result_.attempts += kMaxFailures;
       order_by_arrival();
     }
-    return repair_all(state_, order_, steps_, random_, stop_, progress_, keep_plan);
+    begin_ = Clock::now();
+    next_look_ = after_share(time_.all, budget::kShareOfLook);
+    return repair_all(state_, order_, steps_, random_, stop_, progress_, pace);
   }
 
   /// Whether robots come in the order of their expected arrivals from the beginning.
@@ -154,29 +173,74 @@ class PrioritizedPlanning {
 
   void order_by_arrival() {
     ExpectedOrder expected =
-        order_by_expected_arrival(state_, order_, after_share(stop_, budget::kShareOfOrder));
+        order_by_expected_arrival(state_, order_, after_share(time_.all, budget::kShareOfOrder));
     order_ = std::move(expected.robots);
     result_.cut_off = result_.cut_off || expected.cut_off;
   }
 
-  /// Keeps a safe plan at the end of the first part of the time, and returns to where planning was. Returns
-  /// whether planning goes on. It does not if all robots that are not given up can move in steps.
-  bool keep_safe_plan(const std::vector<std::size_t>& unsolved, const std::vector<std::size_t>& given_up) {
+  /// Decides whether planning one by one goes on. It does as long as all robots are expected to have a plan
+  /// in time. At the end of the first part of the time, a safe plan is kept before. Where the time will not
+  /// suffice, a safe plan is made at once, and planning goes on from it.
+  bool keep_safe_plan(const OrderingResult& so_far) {
     if (best_ || time_.all.met()) return false;
-    if (moves_in_steps(given_up)) return false;
+    const bool is_crowded = so_far.attempts > 1 + std::ssize(order_) / kRobotsPerFailure;
+    const auto is_late = [&] { return time_.keeping.deadline() - Clock::now() <= time_left_to_plan(so_far); };
+    const bool is_due = is_crowded ? half_.met() : time_.first_part.met() && !ends_soon(so_far);
+    if (!is_late() && !is_due) {
+      next_look_ = after_share(time_.all, budget::kShareOfLook);
+      return true;
+    }
+    if (may_move_in_steps(so_far) && moves_in_steps(so_far)) return false;
+    const Clock::duration left = time_left_to_plan(so_far);
+    const bool is_in_time = !is_late();
     const FleetReservations::Snapshot before = state_.reservations().snapshot();
-    keep_if_better(unsolved, given_up, Effort::brief, time_.keeping);
+    keep_if_better(so_far.unsolved, so_far.given_up, Effort::brief,
+                   is_in_time && !is_crowded ? before_the_rest(left) : time_.keeping);
     if (best_->plan.staying.empty()) return false;
-    state_.reservations().restore(before);
+    const bool may_still_end = left < time_.all.deadline() - Clock::now();
+    if (is_in_time && may_still_end) state_.reservations().restore(before);
     stop_ = time_.all;
     return !stop_.met();
   }
 
-  /// Returns whether it keeps a plan in which all robots move in steps, except the robots that are given up.
-  bool moves_in_steps(const std::vector<std::size_t>& given_up) {
-    if (!steps_succeed(given_up, time_.keeping)) return false;
-    keep_if_better({}, given_up, Effort::brief, time_.keeping);
+  /// Whether planning is expected to end in a small part of the time that is left.
+  bool ends_soon(const OrderingResult& so_far) const {
+    return time_left_to_plan(so_far) * kTimesSoon < time_.keeping.deadline() - Clock::now();
+  }
+
+  /// When a safe plan has to be there if planning, which needs so long, goes on afterwards.
+  StopCondition before_the_rest(Clock::duration left) const {
+    const StopCondition part = after_share(time_.all, budget::kShareOfKeeping);
+    return part.until(std::min(part.deadline(), time_.all.deadline() - left));
+  }
+
+  /// Whether steps are worth a try: after a failure, or where they do not take long to prepare.
+  bool may_move_in_steps(const OrderingResult& so_far) const {
+    const std::int64_t vertices = state_.instance().lattice(order_.front()).vertex_count();
+    return so_far.attempts > 1 || std::ssize(order_) * vertices <= kFewDistances;
+  }
+
+  /// Returns whether it keeps a plan in which all robots but those that are given up move in steps.
+  bool moves_in_steps(const OrderingResult& so_far) {
+    if (!steps_succeed(so_far.given_up, time_.keeping)) return false;
+    keep_if_better({}, so_far.given_up, Effort::brief, time_.keeping);
     return true;
+  }
+
+  /// The expected time of planning the robots without a plan. The effort for a robot grows faster than its
+  /// way: searches take longer, and meet more robots.
+  Clock::duration time_left_to_plan(const OrderingResult& so_far) const {
+    const auto effort = [&](const auto& robots) {
+      double sum = 0.0;
+      for (const std::size_t robot : robots) {
+        const double way = state_.instance().itinerary(robot).direct_way + kLeastWay;
+        sum += way * std::sqrt(way);
+      }
+      return sum;
+    };
+    const double left = effort(so_far.unsolved);
+    const double done = std::max(effort(order_) - left, kLeastWay);
+    return std::chrono::duration_cast<Clock::duration>((Clock::now() - begin_) * (kReserve * left / done));
   }
 
   bool steps_succeed(const std::vector<std::size_t>& staying, const StopCondition& stop) {
@@ -342,7 +406,10 @@ class PrioritizedPlanning {
   ProgressReport& progress_;
   PriorityOrder order_;
   FleetSteps steps_;
-  StopCondition stop_;  // ends the first attempt
+  StopCondition stop_;       // ends the first attempt
+  Clock::time_point begin_;  // of planning in this order
+  const StopCondition half_;
+  StopCondition next_look_;  // when to estimate next whether the time suffices
   std::optional<PlanSnapshot> best_;
   PrioritizedResult result_;
 };

@@ -37,8 +37,13 @@ constexpr double kCrowdWeight = 2.0;
 /// Expansions for each robot after which all are planned at once, in steps. Disks that fill two fifths of the
 /// paper's crowds take up to 1200; in a warehouse with corridors of one cell, 600 robots take 8000.
 constexpr std::int64_t kExpansionsBeforeSteps = 1'500;
-/// Failures, in addition to one for each robot, after which all robots are planned in steps, too. 400 disks
-/// take less than 250, and 800 on 1024 cells come to no end.
+/// Expansions for each robot after which steps are tried to keep a plan, once a robot has failed; and those
+/// after which repairs end if there is one. Crowds that repairs plan take at most 270, the paper's halls with
+/// walls up to 1060, where steps mostly fail.
+constexpr std::int64_t kExpansionsBeforeKeeping = 400;
+constexpr std::int64_t kExpansionsWithSteps = 1'000;
+/// Failures, in addition to one for each robot, after which they are, too: 400 disks take less than 250, and
+/// 800 on 1024 cells come to no end.
 constexpr std::int64_t kFailuresBeforeSteps = 100;
 
 constexpr auto kAnyNumber = std::numeric_limits<std::int64_t>::max();
@@ -58,7 +63,7 @@ class Repair {
  public:
   /// `steps`: null if there are none.
   Repair(PlanState& state, PriorityOrder order, FleetSteps* steps, Random& random, const StopCondition& stop,
-         ProgressReport& progress, const OnStop& on_stop)
+         ProgressReport& progress, const Pace& pace)
       : state_(state),
         reservations_(state.reservations()),
         any_yields_(any_yields(state.instance())),
@@ -67,7 +72,7 @@ class Repair {
         random_(random),
         stop_(stop),
         progress_(progress),
-        on_stop_(on_stop),
+        pace_(pace),
         rank_(state.instance().size(), 0),
         lowest_rank_(static_cast<std::int64_t>(order_.size())),
         failures_(state.instance().size(), 0),
@@ -92,6 +97,7 @@ class Repair {
   std::optional<OrderingResult> run(std::int64_t max_failures = kAnyNumber) {
     while (!pending_.empty() && goes_on()) {
       if (result_.attempts > max_failures) return std::nullopt;
+      if (may_be_stuck()) keep_steps();
       if (is_stuck() && plans_all_in_steps()) break;
       progress_.update();
       const std::size_t robot = pending_.begin()->second;
@@ -125,7 +131,27 @@ class Repair {
  private:
   bool goes_on() {
     state_.memory().relieve();
-    return !stop_.met() || (on_stop_ && on_stop_(unsolved(), result_.given_up));
+    if (!stop_.met() && !(pace_.is_due && pace_.is_due())) return true;
+    if (kept_steps_) return !follow_kept_steps();
+    if (!pace_.on_stop) return false;
+    result_.unsolved = unsolved();
+    if (!pace_.on_stop(result_)) return false;
+    resume_if_changed();
+    return true;
+  }
+
+  /// Others may have planned robots meanwhile, or stopped some.
+  void resume_if_changed() {
+    const bool is_changed = std::any_of(pending_.begin(), pending_.end(), [&](const auto& pending) {
+      return reservations_.trajectory(pending.second) || reservations_.stays(pending.second);
+    });
+    if (!is_changed) return;
+    pending_.clear();
+    for (const std::size_t robot : order_) {
+      const auto& given_up = result_.given_up;
+      if (std::find(given_up.begin(), given_up.end(), robot) != given_up.end()) continue;
+      if (!reservations_.trajectory(robot)) postpone(robot);
+    }
   }
 
   /// Whether failures may have no end.
@@ -133,11 +159,39 @@ class Repair {
     if (steps_ == nullptr || result_.attempts < 2) return false;
     const auto robots = static_cast<std::int64_t>(order_.size());
     return result_.attempts > robots + kFailuresBeforeSteps ||
-           state_.expansions() - expansions_ > robots * kExpansionsBeforeSteps;
+           used_expansions() > robots * (kept_steps_ ? kExpansionsWithSteps : kExpansionsBeforeSteps);
+  }
+
+  /// Whether steps are tried before failures have come to that, to have a plan whatever time is left.
+  bool may_be_stuck() const {
+    if (steps_ == nullptr || result_.attempts < 2 || result_.steps) return false;
+    return used_expansions() > kExpansionsBeforeKeeping * std::ssize(order_);
+  }
+
+  std::int64_t used_expansions() const { return state_.expansions() - expansions_; }
+
+  /// Keeps a plan of all robots in steps, if there is one, and returns to where repairs were.
+  void keep_steps() {
+    FleetReservations::Snapshot before = reservations_.snapshot();
+    result_.steps = steps_->follow(order_, result_.hopeless, stop_);
+    if (result_.steps != StepsOutcome::followed) return;
+    kept_steps_ = reservations_.snapshot();
+    reservations_.restore(std::move(before));
+  }
+
+  /// All robots but the hopeless ones follow the plan that was kept. Returns true.
+  bool follow_kept_steps() {
+    ++result_.attempts;
+    reservations_.restore(std::move(*kept_steps_));
+    kept_steps_.reset();
+    pending_.clear();
+    result_.given_up = result_.hopeless;
+    return true;
   }
 
   /// Returns whether all robots except the hopeless ones have new trajectories. If not, nothing has changed.
   bool plans_all_in_steps() {
+    if (kept_steps_) return follow_kept_steps();
     const StepsOutcome outcome = std::exchange(steps_, nullptr)->follow(order_, result_.hopeless, stop_);
     result_.steps = outcome;
     if (outcome != StepsOutcome::followed) return false;
@@ -367,14 +421,15 @@ class Repair {
   Random& random_;
   const StopCondition& stop_;
   ProgressReport& progress_;
-  const OnStop& on_stop_;
+  const Pace& pace_;
   std::vector<std::int64_t> rank_;  // by robot; a smaller rank is a higher priority
   std::int64_t highest_rank_ = 0;
   std::int64_t lowest_rank_;
   std::vector<int> failures_;                 // by robot
   std::vector<int> asks_;                     // by robot: how often others were asked to make way for it
   std::vector<bool> cannot_make_way_;         // by robot: it was asked, and failed
-  std::optional<std::size_t> keeps_its_way_;  // a robot that does not give way to any other
+  std::optional<std::size_t> keeps_its_way_;  // a robot that gives way to nobody
+  std::optional<FleetReservations::Snapshot> kept_steps_;  // a plan of all robots in steps
   EjectionSearch ejection_;
   const std::int64_t expansions_;                           // before these repairs
   std::set<std::pair<std::int64_t, std::size_t>> pending_;  // rank, robot
@@ -384,24 +439,24 @@ class Repair {
 }  // namespace
 
 OrderingResult repair_all(PlanState& state, const PriorityOrder& order, FleetSteps& steps, Random& random,
-                          const StopCondition& stop, ProgressReport& progress, const OnStop& on_stop) {
-  return *repair_unless(kAnyNumber, state, order, steps, random, stop, progress, on_stop);
+                          const StopCondition& stop, ProgressReport& progress, const Pace& pace) {
+  return *repair_unless(kAnyNumber, state, order, steps, random, stop, progress, pace);
 }
 
 std::optional<OrderingResult> repair_unless(std::int64_t max_failures, PlanState& state,
                                             const PriorityOrder& order, FleetSteps& steps, Random& random,
                                             const StopCondition& stop, ProgressReport& progress,
-                                            const OnStop& on_stop) {
+                                            const Pace& pace) {
   progress.next_attempt();
-  Repair repair(state, order, &steps, random, stop, progress, on_stop);
+  Repair repair(state, order, &steps, random, stop, progress, pace);
   repair.postpone_all();
   return repair.run(max_failures);
 }
 
 OrderingResult repair_around(PlanState& state, const PriorityOrder& order, Random& random,
-                             const StopCondition& stop, ProgressReport& progress, const OnStop& on_stop) {
+                             const StopCondition& stop, ProgressReport& progress, const Pace& pace) {
   progress.next_attempt();
-  Repair repair(state, order, nullptr, random, stop, progress, on_stop);
+  Repair repair(state, order, nullptr, random, stop, progress, pace);
   repair.postpone_those_without_trajectory();
   return *repair.run();
 }

@@ -3,6 +3,7 @@
 // Planning in one priority order, with repairs after failures.
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 
 #include "core/fleet/plan_state.h"
@@ -14,9 +15,17 @@
 
 namespace fleetplan::core {
 
-/// Plans all robots of `order`, which have no reservations. After a failure, it repairs the plan instead of
-/// starting again. It plans the robot so that it conflicts with few others (EjectionSearch), and plans these
-/// next. `unsolved` is empty unless `stop` was met. Then `on_stop` (if given) decides whether to go on.
+/// Who decides whether repairs go on.
+struct Pace {
+  OnStop on_stop;  // when the stop condition is met; none: they end
+  std::function<bool()>
+      is_due;  // asked before each robot: whether to ask `on_stop` all the same; may be none
+};
+
+/// Plans all robots of `order`, which have no reservations, and repairs the plan after a failure instead of
+/// starting again: a robot that fails among all others is planned so that it conflicts with few others
+/// (EjectionSearch), and those are planned next. `unsolved` is empty unless `stop` was met, or `pace` decided
+/// not to go on.
 ///
 /// A robot that fails too often may be in a cycle of ejections. It is then treated as follows:
 ///
@@ -35,19 +44,17 @@ namespace fleetplan::core {
 ///
 /// If failures may have no end, all robots are planned in `steps`.
 OrderingResult repair_all(PlanState& state, const PriorityOrder& order, FleetSteps& steps, Random& random,
-                          const StopCondition& stop, ProgressReport& progress,
-                          const OnStop& on_stop = nullptr);
+                          const StopCondition& stop, ProgressReport& progress, const Pace& pace = {});
 
 /// Plans as repair_all() does. Returns none as soon as this many attempts have failed.
 std::optional<OrderingResult> repair_unless(std::int64_t max_failures, PlanState& state,
                                             const PriorityOrder& order, FleetSteps& steps, Random& random,
                                             const StopCondition& stop, ProgressReport& progress,
-                                            const OnStop& on_stop);
+                                            const Pace& pace);
 
 /// Plans the robots of `order` as repair_all() does, but some of them already follow trajectories. They keep
 /// these until a robot with a higher priority needs their way. Robots are not planned in steps.
 OrderingResult repair_around(PlanState& state, const PriorityOrder& order, Random& random,
-                             const StopCondition& stop, ProgressReport& progress,
-                             const OnStop& on_stop = nullptr);
+                             const StopCondition& stop, ProgressReport& progress, const Pace& pace = {});
 
 }  // namespace fleetplan::core

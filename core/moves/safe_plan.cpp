@@ -15,13 +15,23 @@ namespace {
 
 using Reason = Unplanned::Reason;
 
-/// The searches for one robot, round by round. Most robots that have a path find it soon. A search that fails
-/// may take as long as hundreds of successful searches.
+/// The share of the time in which robots are led around others. If it is not expected to suffice, or if fewer
+/// than four in five find a way, the others stay: where some are led and others not, all may have to stay.
+constexpr double kShareOfLeading = 0.6;
+constexpr std::size_t kLeadsPerFailure = 5;
+/// Searches before that is judged, and for each robot about.
+constexpr std::size_t kFirstLeads = 10;
+constexpr double kLeadsPerRobot = 1.3;
+
+/// The searches for one robot, round by round: most robots that have a path find it soon, and a search that
+/// fails may take as long as hundreds that do not. A long way adds expansions, so many for each step on the
+/// lattice.
 constexpr std::array<SearchSettings, 3> kRounds{{
     {.heuristic_weight = 2.0, .thorough = false, .max_expansions = 200},
     {.thorough = false, .max_expansions = 5'000},
     {},
 }};
+constexpr std::array<double, 2> kExpansionsPerStep{4.0, 20.0};
 
 std::size_t rounds_of(Effort effort) {
   if (effort == Effort::none) return 0;
@@ -29,6 +39,8 @@ std::size_t rounds_of(Effort effort) {
 }
 
 class SafePlanner {
+  using Clock = StopCondition::Clock;
+
  public:
   SafePlanner(PlanState& state, Effort effort, const StopCondition& stop, ProgressReport& progress)
       : state_(state),
@@ -45,11 +57,11 @@ class SafePlanner {
     for (const std::size_t robot : unsolved) {
       if (!reservations_.trajectory(robot)) stay(robot);
     }
-    stop_conflicting_robots();
+    clear_places();
     sort_by_distance();
     progress_.update();
     for (std::size_t round = 0; round < rounds_;) {
-      if (!plan_staying_robots(kRounds[round])) ++round;
+      if (!plan_staying_robots(round)) ++round;
     }
     std::sort(staying_.begin(), staying_.end());
     for (const std::size_t robot : staying_) result_.staying.push_back({robot, has_no_path_[robot]});
@@ -63,13 +75,65 @@ class SafePlanner {
     staying_.push_back(robot);
   }
 
-  void stop_conflicting_robots() {
+  /// Leads robots that cross the place of one that stays around it. Those that find no way there stay as
+  /// well.
+  void clear_places() {
+    const Clock::time_point begin = Clock::now();
+    const std::size_t total = rounds_ > 0 ? count_crossing() : 0;
+    std::size_t led = 0;
+    std::size_t failed = 0;
+    bool leads = rounds_ > 0;
+    bool in_time = true;
+    // Bounded: each robot begins to stay once, and one that crosses its place is led or stays.
     for (std::size_t k = 0; k < staying_.size(); ++k) {  // staying_ grows
       for (const std::size_t crossing : reservations_.robots_crossing_place(staying_[k])) {
+        in_time = in_time && !stop_.met() && may_lead_all(begin, led, total);
+        if (leads && in_time && reservations_.trajectory(crossing)) {
+          ++led;
+          if (lead(crossing)) continue;
+          leads = ++failed * kLeadsPerFailure < led + kFirstLeads;
+        }
         if (reservations_.trajectory(crossing)) stay(crossing);
         if (earlier_[crossing]) waiting_for_[staying_[k]].push_back(crossing);
       }
     }
+    result_.cut_off = result_.cut_off || (leads && !in_time);
+  }
+
+  std::size_t count_crossing() const {
+    std::vector<bool> crosses(state_.instance().size(), false);
+    for (const std::size_t robot : staying_) {
+      for (const std::size_t other : reservations_.robots_crossing_place(robot)) {
+        crosses[other] = crosses[other] || reservations_.trajectory(other);
+      }
+    }
+    return static_cast<std::size_t>(std::count(crosses.begin(), crosses.end(), true));
+  }
+
+  /// Whether so many robots are likely to be led in time if `led` have been since `begin`.
+  bool may_lead_all(Clock::time_point begin, std::size_t led, std::size_t total) const {
+    if (led < kFirstLeads || stop_.deadline() == Clock::time_point::max()) return true;
+    const Clock::duration so_long = Clock::now() - begin;
+    const double times_as_long =
+        std::max(1.0, kLeadsPerRobot * static_cast<double>(total) / static_cast<double>(led));
+    return so_long * times_as_long < (stop_.deadline() - begin) * kShareOfLeading;
+  }
+
+  bool lead(std::size_t robot) {
+    state_.memory().relieve();
+    return state_.replan(robot, search_for(robot, 0), stop_).trajectory.has_value();
+  }
+
+  /// Returns the settings for a robot in a round.
+  SearchSettings search_for(std::size_t robot, std::size_t round) {
+    SearchSettings settings = kRounds[round];
+    if (round + 1 == kRounds.size()) return settings;
+    const double seconds = state_.ways().estimated_alone(robot, stop_);
+    if (seconds == kForever) return settings;
+    const double steps =
+        seconds * state_.instance().body(robot).linear_speed / state_.instance().lattice(robot).spacing();
+    settings.max_expansions += static_cast<std::int64_t>(kExpansionsPerStep[round] * steps);
+    return settings;
   }
 
   /// Sorts the robots that stay by the length of their way, shortest first: they seldom cross the starts of
@@ -84,10 +148,11 @@ class SafePlanner {
   }
 
   /// Plans each robot that stays once. Returns whether another round may help.
-  bool plan_staying_robots(const SearchSettings& settings) {
+  bool plan_staying_robots(std::size_t round) {
     const std::vector<std::size_t> robots = staying_;
     for (const std::size_t robot : robots) {
-      if (!reservations_.trajectory(robot) && try_plan(robot, settings)) resume_those_waiting_for(robot);
+      if (!reservations_.trajectory(robot) && try_plan(robot, search_for(robot, round)))
+        resume_those_waiting_for(robot);
     }
     std::erase_if(staying_, [&](std::size_t robot) { return reservations_.trajectory(robot).has_value(); });
     return staying_.size() < robots.size() && !staying_.empty() && !stop_.met();

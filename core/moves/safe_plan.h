@@ -25,17 +25,13 @@ struct SafePlan {
 /// that stay are not planned.
 enum class Effort : std::uint8_t { none, brief, full };
 
-/// Makes the plan in `state` safe. Robots of `unsolved` may have a trajectory; robots of `given_up` already
-/// stay at their starts.
-///
-/// 1. All robots without a trajectory stay at their starts, and so do robots whose trajectories conflict with
-///    a robot that stays.
-/// 2. The robots that stay are planned again one by one, with growing effort, as long as that gives a robot a
-///    trajectory.
-/// 3. When a robot has left its start, the robots that stayed only because of it follow their earlier
-///    trajectories again.
-///
-/// The plan is safe after every step. Once `stop` is met, no search starts.
+/// Makes the plan in `state` safe. Robots of `unsolved` may have a trajectory; those of `given_up` stay at
+/// their starts already. First, all robots without a trajectory stay at their starts. Robots whose
+/// trajectories conflict with one that stays are planned around it, if time suffices for all of them, or stay
+/// as well. Then those that stay are planned again one by one, with growing
+/// effort, as long as that gives a robot a trajectory. When one has left its start, those that only had to
+/// stay because of it follow their earlier trajectories again. The plan is safe after every step; once `stop`
+/// is met, no search starts.
 SafePlan make_safe(PlanState& state, const std::vector<std::size_t>& unsolved,
                    const std::vector<std::size_t>& given_up, Effort effort, const StopCondition& stop,
                    ProgressReport& progress);

@@ -19,15 +19,17 @@ namespace fleetplan::core::budget {
 //     library, the time for planning is the whole budget, and the check comes after it.
 //  3. Poses of goals that have several: at most a quarter (kShareOfPoses), and again before each try with
 //     other poses.
-//  4. Previous plans, if there are any. They are kept whatever the budget, so their check may last until 500
-//     ms after the budget (kMaxForPrevious).
-//  5. First plan: what is left, as long as robots have no plan. Half of it (kShareBeforeSafePlan) is for one
-//     order and its repairs. A fifth of this half (kShareOfOrder) may find the order of expected arrivals.
-//     Steps of the whole fleet have two fifths of what is left (kShareOfSteps).
-//  6. Safe plan, if robots are without a plan after that half. No robot is in the way of others in it. It is
-//     made until nine tenths (kShareWithSafePlan). Then planning goes on until all robots have a plan or the
-//     time is over. Robots that gave way to others return to their previous plans in the last twentieth
-//     (kShareAroundKept).
+//  4. Previous plans, if there are any: their check may last until 500 ms after the budget
+//     (kMaxForPrevious), as they are kept whatever the budget.
+//  5. First plan: what is left, as long as robots have no plan. A tenth (kShareOfOrder) may find the order
+//     of expected arrivals. Then robots are planned in that order, with repairs. From time to time
+//     (kShareOfLook) it is estimated whether the time suffices for all. If a robot has failed, steps of the
+//     whole fleet have two fifths of what is left (kShareOfSteps).
+//  6. Safe plan, in which nobody is in the way of others: at once if the time is not expected to suffice, and
+//     otherwise after two thirds (kShareBeforeSafePlan), in crowds after half
+//     (kShareBeforeSafePlanOfCrowd), until nine tenths (kShareWithSafePlan) at most. Planning goes on until
+//     all robots have a plan or the time is over. Robots that gave way to others return to their previous
+//     plans in the last twentieth (kShareAroundKept).
 //  7. Smoothing of the first plan: at most three tenths (kShareOfBriefSmoothing). Then unavoidable
 //     collisions: until 150 ms after the budget (kMaxForUnavoidable), because no plan can be checked without
 //     them.
@@ -104,20 +106,25 @@ inline constexpr std::chrono::milliseconds kLeastAroundKept{40};
 
 // 5. First plan.
 
-/// The share of the time after which a safe plan is made.
-inline constexpr double kShareBeforeSafePlan = 0.5;
-/// The share of that time for the order of expected arrivals.
-inline constexpr double kShareOfOrder = 0.2;
-/// The share for steps of the whole fleet, before something else is tried.
+/// The share after which a safe plan is made, and that in crowds, whose last robots may take long.
+inline constexpr double kShareBeforeSafePlan = 0.66;
+inline constexpr double kShareBeforeSafePlanOfCrowd = 0.5;
+/// Whether the time suffices is estimated each time after this share of what is left.
+inline constexpr double kShareOfLook = 0.06;
+/// The share of what is left then for a safe plan, if all robots may have a plan afterwards.
+inline constexpr double kShareOfKeeping = 0.45;
+/// The share which finding the order of expected arrivals may take.
+inline constexpr double kShareOfOrder = 0.1;
+/// The share that steps of the whole fleet may take before something else is tried.
 inline constexpr double kShareOfSteps = 0.4;
-/// The share of that time for steps along the rows and columns of a lattice, if they do not suffice.
-inline constexpr double kShareOfLattice = 0.5;
+/// The share of that for steps along the rows and columns of a lattice, if they do not suffice.
+inline constexpr double kShareOfLattice = 0.7;
 
 // 6. Safe plan.
 
-/// The share of the time by which the safe plan is finished.
-inline constexpr double kShareWithSafePlan = 0.9;
-/// The share around kept plans, if the rest is for robots that gave way and may return.
+/// The share after which the making of it ends.
+inline constexpr double kShareWithSafePlan = 0.93;
+/// The share around plans that are kept, if the rest is for robots that gave way and may return.
 inline constexpr double kShareAroundKept = 0.95;
 /// The least time around kept plans that is divided in two parts. Keeping a safe plan and returning to the
 /// state before takes about 0.1 s for 500 robots. In less time, repairs of the plan are better left to run.
