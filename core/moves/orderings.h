@@ -81,14 +81,16 @@ struct OrderingResult {
   std::optional<StepsOutcome> steps = {};  // of the last plan in steps, if there was any
 };
 
-/// Called when the stop condition of an attempt is met, with what it has come to. Returns whether the attempt
-/// goes on, with the same reservations; then the stop condition is no longer met.
+/// Called when the stop condition of an attempt is met, with the result so far. Returns whether the attempt
+/// goes on. If it does, the stop condition is no longer met.
 using OnStop = std::function<bool(const OrderingResult& so_far)>;
 
-/// Plans all robots of `order`; whenever one fails, starts again in another order (paper, section Prioritized
-/// planning). Ends when all have a trajectory, all orders have failed, or `stop` is met, and leaves the state
-/// of the attempt that planned the most robots. If all orders fail, tries some random ones in which the first
-/// robot starts late. When `stop` is met, `on_stop` decides, if there is one, whether to go on.
+/// Plans all robots of `order`. Whenever a robot fails, starts again in another order (paper, section
+/// Prioritized planning). Ends when all have a trajectory, all orders have failed, or `stop` is met. Leaves
+/// the state of the attempt that planned the most robots.
+///
+/// If all orders fail, tries some random orders in which the first robot starts late. When `stop` is met,
+/// `on_stop` (if given) decides whether to go on.
 OrderingResult plan_with_restarts(PlanState& state, PriorityOrder order, Random& random,
                                   const StopCondition& stop, ProgressReport& progress,
                                   const OnStop& on_stop = nullptr);

@@ -28,19 +28,19 @@ constexpr std::size_t kFewRobots = 4;
 constexpr int kMaxOrdersWithoutDeadline = 10;
 /// The most robots that are planned again, one after the other, after a plan in steps.
 constexpr std::size_t kMaxReplanned = 16;
-/// Vertices times robots: so many distances take some tenths of a second.
+/// Vertices times robots up to which the distances for steps take only some tenths of a second.
 constexpr std::int64_t kFewDistances = 10'000'000;
 /// Metres that are added to the way of each robot, in estimates of the time that its plan takes.
 constexpr double kLeastWay = 1.0;
 /// How many times as long as estimated the rest of planning may take.
 constexpr double kReserve = 1.15;
-/// Planning ends soon if that takes at most one in so many parts of the time.
+/// Planning ends soon if its rest takes at most this fraction (1 / kTimesSoon) of the time that is left.
 constexpr int kTimesSoon = 4;
-/// More failures than one for so many robots are a crowd, in which the last robots take longer than
+/// With more than one failure for this many robots, the robots are a crowd. Its last robots take longer than
 /// estimated.
 constexpr std::int64_t kRobotsPerFailure = 50;
-/// The failed attempts after which robots of different sizes are planned again in that order, if they were
-/// planned in another one.
+/// The failed attempts after which robots of different sizes are planned again in the order of sizes, if they
+/// were planned in another order.
 constexpr std::int64_t kMaxFailures = 15;
 
 /// Plans every robot once, in the given order.

@@ -37,13 +37,13 @@ constexpr double kCrowdWeight = 2.0;
 /// Expansions for each robot after which all are planned at once, in steps. Disks that fill two fifths of the
 /// paper's crowds take up to 1200; in a warehouse with corridors of one cell, 600 robots take 8000.
 constexpr std::int64_t kExpansionsBeforeSteps = 1'500;
-/// Expansions for each robot after which steps are tried to keep a plan, once a robot has failed; and those
-/// after which repairs end if there is one. Crowds that repairs plan take at most 270, the paper's halls with
-/// walls up to 1060, where steps mostly fail.
+/// Expansions for each robot after which steps are tried once a robot has failed, to have a plan whatever
+/// happens. With such a plan, repairs end after the second number. Crowds that repairs can plan take at most
+/// 270. The paper's halls with walls take up to 1060, but steps mostly fail there.
 constexpr std::int64_t kExpansionsBeforeKeeping = 400;
 constexpr std::int64_t kExpansionsWithSteps = 1'000;
-/// Failures, in addition to one for each robot, after which they are, too: 400 disks take less than 250, and
-/// 800 on 1024 cells come to no end.
+/// Failures, in addition to one for each robot, after which all robots are planned in steps, too. 400 disks
+/// take less than 250, and 800 on 1024 cells come to no end.
 constexpr std::int64_t kFailuresBeforeSteps = 100;
 
 constexpr auto kAnyNumber = std::numeric_limits<std::int64_t>::max();
@@ -124,15 +124,19 @@ class Repair {
       }
     }
     result_.unsolved = unsolved();
-    result_.cut_off = !result_.unsolved.empty();
+    result_.cut_off = result_.cut_off || !result_.unsolved.empty();
     return std::move(result_);
   }
 
  private:
   bool goes_on() {
     state_.memory().relieve();
-    if (!stop_.met() && !(pace_.is_due && pace_.is_due())) return true;
-    if (kept_steps_) return !follow_kept_steps();
+    const bool is_due = !kept_steps_ && pace_.is_due && pace_.is_due();
+    if (!stop_.met() && !is_due) return true;
+    if (kept_steps_) {
+      result_.cut_off = true;
+      return !follow_kept_steps();
+    }
     if (!pace_.on_stop) return false;
     result_.unsolved = unsolved();
     if (!pace_.on_stop(result_)) return false;
@@ -174,6 +178,7 @@ class Repair {
   void keep_steps() {
     FleetReservations::Snapshot before = reservations_.snapshot();
     result_.steps = steps_->follow(order_, result_.hopeless, stop_);
+    result_.cut_off = result_.cut_off || result_.steps == StepsOutcome::cut_off;
     if (result_.steps != StepsOutcome::followed) return;
     kept_steps_ = reservations_.snapshot();
     reservations_.restore(std::move(before));

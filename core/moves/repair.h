@@ -17,14 +17,15 @@ namespace fleetplan::core {
 
 /// Who decides whether repairs go on.
 struct Pace {
-  OnStop on_stop;  // when the stop condition is met; none: they end
-  std::function<bool()>
-      is_due;  // asked before each robot: whether to ask `on_stop` all the same; may be none
+  /// Asked when the stop condition is met. Without it, repairs end then.
+  OnStop on_stop;
+  /// Asked before each robot: whether to ask `on_stop` although the stop condition is not met. Optional.
+  std::function<bool()> is_due;
 };
 
-/// Plans all robots of `order`, which have no reservations, and repairs the plan after a failure instead of
-/// starting again: a robot that fails among all others is planned so that it conflicts with few others
-/// (EjectionSearch), and those are planned next. `unsolved` is empty unless `stop` was met, or `pace` decided
+/// Plans all robots of `order`, which have no reservations. After a failure it repairs the plan instead of
+/// starting again. A robot that fails among all others is planned so that it conflicts with few others
+/// (EjectionSearch), and those are planned next. `unsolved` is empty unless `stop` was met or `pace` decided
 /// not to go on.
 ///
 /// A robot that fails too often may be in a cycle of ejections. It is then treated as follows:

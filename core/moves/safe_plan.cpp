@@ -15,11 +15,11 @@ namespace {
 
 using Reason = Unplanned::Reason;
 
-/// The share of the time in which robots are led around others. If it is not expected to suffice, or if fewer
-/// than four in five find a way, the others stay: where some are led and others not, all may have to stay.
+/// The share of the time for planning robots around others. The rest of the robots stay if this time is not
+/// expected to suffice, or if more than one robot in kLeadsPerFailure finds no way.
 constexpr double kShareOfLeading = 0.6;
 constexpr std::size_t kLeadsPerFailure = 5;
-/// Searches before that is judged, and for each robot about.
+/// Searches before this is judged, and the expected searches for each robot.
 constexpr std::size_t kFirstLeads = 10;
 constexpr double kLeadsPerRobot = 1.3;
 

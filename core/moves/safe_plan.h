@@ -25,13 +25,17 @@ struct SafePlan {
 /// that stay are not planned.
 enum class Effort : std::uint8_t { none, brief, full };
 
-/// Makes the plan in `state` safe. Robots of `unsolved` may have a trajectory; those of `given_up` stay at
-/// their starts already. First, all robots without a trajectory stay at their starts. Robots whose
-/// trajectories conflict with one that stays are planned around it, if time suffices for all of them, or stay
-/// as well. Then those that stay are planned again one by one, with growing
-/// effort, as long as that gives a robot a trajectory. When one has left its start, those that only had to
-/// stay because of it follow their earlier trajectories again. The plan is safe after every step; once `stop`
-/// is met, no search starts.
+/// Makes the plan in `state` safe. Robots of `unsolved` may have a trajectory; robots of `given_up` stay at
+/// their starts already.
+///
+/// 1. All robots without a trajectory stay at their starts.
+/// 2. A robot whose trajectory conflicts with a robot that stays is planned around it. If the time does not
+///    suffice for all such robots, or one finds no way, it stays as well.
+/// 3. The robots that stay are planned one by one with growing effort, as long as that gives a robot a
+///    trajectory. When a robot has left its start, the robots that stayed only because of it follow their
+///    earlier trajectories again.
+///
+/// The plan is safe after step 2 and after each robot of step 3. Once `stop` is met, no search starts.
 SafePlan make_safe(PlanState& state, const std::vector<std::size_t>& unsolved,
                    const std::vector<std::size_t>& given_up, Effort effort, const StopCondition& stop,
                    ProgressReport& progress);
