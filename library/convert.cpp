@@ -1,11 +1,13 @@
 #include "library/convert.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include "core/geometry/position.h"
 #include "core/geometry/segment.h"
 #include "core/model/action.h"
+#include "core/model/objective_share.h"
 
 namespace fleetplan::library {
 
@@ -359,6 +361,35 @@ Pose pose_at(std::span<const Action> actions, const Pose& start, double t) {
   return {action.from.x + fraction * (action.to.x - action.from.x),
           action.from.y + fraction * (action.to.y - action.from.y),
           core::normalize_angle(action.from.theta + fraction * turn)};
+}
+
+Plan library::plan_of(const core::MadePlan& made, const Problem& problem,
+                      const std::vector<std::vector<Fault>>& invalid) {
+  const auto& open = made.task.open;
+  Plan plan = plan_of(made.plan, problem, open ? open->goals : core::OpenGoals());
+  plan.objective_value =
+      core::objective_value(made.plan, made.task.problem.robots(), made.task.options.objective);
+  plan.search.seconds = std::chrono::duration<double>(made.times.planned - made.times.begun).count();
+  for (Unplanned& robot : plan.unplanned) {
+    if (robot.reason == Unplanned::Reason::invalid) robot.faults = invalid[robot.robot];
+  }
+  if (!made.report) return plan;
+  if (!made.report->valid()) throw_rejected(*made.report);
+  plan.verified = true;
+  plan.min_clearance = made.report->min_clearance;
+  return plan;
+}
+
+void library::throw_rejected(const core::VerifyReport& report) {
+  throw std::logic_error("fleetplan made a plan that its checker rejects: " +
+                         report.violations.front().detail);
+}
+
+core::StopCondition::Clock::time_point library::end_of(std::chrono::nanoseconds budget,
+                                                       core::StopCondition::Clock::time_point begin) {
+  using Time = core::StopCondition::Clock::time_point;
+  const auto left = Time::max() - begin;
+  return budget >= left ? Time::max() : begin + budget;
 }
 
 }  // namespace fleetplan

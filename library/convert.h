@@ -11,6 +11,7 @@
 #include <fleetplan/problem.h>
 #include <fleetplan/verify.h>
 
+#include <chrono>
 #include <optional>
 #include <stop_token>
 #include <vector>
@@ -62,6 +63,15 @@ std::vector<core::UnavoidableCollision> unavoidable_of(const std::vector<Unavoid
 /// Converts a plan, except whether it is verified and how long it took. `open` has the chosen poses, by
 /// robot; empty if no goal has several.
 Plan plan_of(const core::Plan& plan, const Problem& problem, const core::OpenGoals& open);
+/// Converts a plan with what the check says of it. `invalid` has the faults of each robot that is invalid.
+/// Throws std::logic_error if the check rejects it.
+Plan plan_of(const core::MadePlan& made, const Problem& problem,
+             const std::vector<std::vector<Fault>>& invalid);
+/// Throws std::logic_error: a plan of the planner is rejected.
+[[noreturn]] void throw_rejected(const core::VerifyReport& report);
+/// Returns the end of a time budget that may be very long.
+core::StopCondition::Clock::time_point end_of(std::chrono::nanoseconds budget,
+                                              core::StopCondition::Clock::time_point begin);
 Verification verification_of(core::VerifyReport report);
 Progress progress_of(const core::Progress& progress);
 

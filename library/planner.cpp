@@ -8,7 +8,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/model/objective_share.h"
 #include "core/model/open_goal.h"
 #include "core/plan/make_plan.h"
 #include "core/runtime/budget.h"
@@ -22,12 +21,6 @@ namespace fleetplan {
 namespace {
 
 using Clock = core::StopCondition::Clock;
-
-/// Returns the end of a time budget that may be very long.
-Clock::time_point end_of(std::chrono::nanoseconds budget, Clock::time_point begin) {
-  const auto left = Clock::time_point::max() - begin;
-  return budget >= left ? Clock::time_point::max() : begin + budget;
-}
 
 class Reporter : public core::PlanObserver {
  public:
@@ -124,24 +117,9 @@ Plan plan(const Problem& problem, const Options& options, const Control& control
   if (!made.faults.empty()) throw InvalidProblem(std::move(made.faults));
   if (!made.task) return nothing_planned(problem.robots.size());
 
-  const core::StopCondition stop(end_of(options.time_budget, begin), control.stop);
+  const core::StopCondition stop(library::end_of(options.time_budget, begin), control.stop);
   const core::MadePlan found = planned(std::move(*made.task), stop, control);
-  const auto& open = found.task.open;
-  Plan plan = library::plan_of(found.plan, problem, open ? open->goals : core::OpenGoals());
-  plan.objective_value =
-      core::objective_value(found.plan, found.task.problem.robots(), found.task.options.objective);
-  plan.search.seconds = std::chrono::duration<double>(found.times.planned - found.times.begun).count();
-  for (Unplanned& robot : plan.unplanned) {
-    if (robot.reason == Unplanned::Reason::invalid) robot.faults = std::move(made.invalid[robot.robot]);
-  }
-  if (!found.report) return plan;
-  if (!found.report->valid()) {
-    throw std::logic_error("fleetplan made a plan that its checker rejects: " +
-                           found.report->violations.front().detail);
-  }
-  plan.verified = true;
-  plan.min_clearance = found.report->min_clearance;
-  return plan;
+  return library::plan_of(found, problem, made.invalid);
 }
 
 const RobotPlan* Plan::plan_of(std::size_t robot) const {
@@ -163,7 +141,7 @@ Verification verify(const Problem& problem, std::span<const RobotPlan> plans, co
   core_rules.horizon = rules.horizon;
   core_rules.exempt = library::unavoidable_of(rules.unavoidable);
   const core::OccupancyGrid grid = library::grid_of(problem.map);
-  const core::StopCondition stop(end_of(rules.time_budget, Clock::now()), rules.stop);
+  const core::StopCondition stop(library::end_of(rules.time_budget, Clock::now()), rules.stop);
   const std::vector<core::RobotPlan> made = core_plans(plans, library::Frame(problem.map));
   settle_choices(plans, made, library::Frame(problem.map), fleet, stop);
   for (const std::size_t robot : rules.invalid) {

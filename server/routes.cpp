@@ -62,6 +62,13 @@ Handler simulate(const Backend& backend) {
   };
 }
 
+/// Returns the margins that hold, as JSON or as a stream of events.
+Handler margins(const Backend& backend) {
+  return [&backend](Exchange& exchange) {
+    return answer_or_events(backend, exchange, backend.service.margins, "margins");
+  };
+}
+
 /// Returns what an endpoint of the backend's service computes, without progress.
 Handler compute(const Backend& backend, const Service::Endpoint& endpoint) {
   return [&backend, &endpoint](Exchange& exchange) { return backend.run_job(exchange, endpoint, nullptr); };
@@ -170,6 +177,7 @@ RouteTable main_routes(const Backend& backend) {
   routes.post("/v1/plan", plan(backend), {.plans = true, .events = true});
   routes.post("/v1/validate", compute(backend, backend.service.validate));
   routes.post("/v1/simulate", simulate(backend), {.events = true});
+  routes.post("/v1/margins", margins(backend), {.events = true});
   routes.post("/v1/advance", compute(backend, backend.service.advance));
   routes.post("/v1/dependencies", compute(backend, backend.service.dependencies));
   routes.post("/v1/retime", compute(backend, backend.service.retime));

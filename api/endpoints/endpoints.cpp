@@ -296,30 +296,10 @@ TurnNeed need_of(const SimulateRequest& request, const core::StopCondition& stop
           .is_short = false};
 }
 
-/// Returns the dependencies with positions in the list of plans as robots.
-std::vector<core::Dependency> by_plan(const SimulateRequest& request) {
-  std::vector<std::size_t> plan_of(request.robots.size(), 0);
-  for (std::size_t k = 0; k < request.plans.size(); ++k) plan_of[request.plans[k].robot] = k;
-  std::vector<core::Dependency> dependencies = request.dependencies;
-  for (core::Dependency& dependency : dependencies) {
-    dependency.gate.robot = plan_of[dependency.gate.robot];
-    dependency.until.robot = plan_of[dependency.until.robot];
-  }
-  return dependencies;
-}
-
 core::SimulatedFleet fleet_of(const SimulateRequest& request) {
-  core::PlannedExecution execution{request.plans, {}};
-  // By a clock, added waits absorb delays; without one, they have to last.
-  const bool keeps_added_waits = request.policy == core::ExecutionPolicy::dependencies;
-  const double added_wait = keeps_added_waits ? request.wait_before_move : 0.0;
-  for (const core::RobotPlan& plan : request.plans) {
-    execution.purposes.push_back(core::wait_purposes(request.robots[plan.robot], plan.actions, added_wait));
-  }
-  execution.policy = request.policy;
-  execution.max_delay = request.max_delay;
-  execution.dependencies = by_plan(request);
-  return {request.grid, request.robots, request.body_radii, std::move(execution)};
+  return {request.grid, request.robots, request.body_radii,
+          core::planned_execution(request.robots, request.plans, request.policy, request.max_delay,
+                                  request.wait_before_move, request.dependencies)};
 }
 
 /// Returns the text of the requested trace. None, with a warning, if it has too many actions for an answer,

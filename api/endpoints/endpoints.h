@@ -28,6 +28,10 @@ Reply validate_endpoint(std::string_view body, const RequestContext& context);
 /// context's events.
 Reply simulate_endpoint(std::string_view body, const RequestContext& context);
 
+/// POST /v1/margins: finds the cheapest margins with which the plan of a request holds when it is executed.
+/// Reports progress to the context's events.
+Reply margins_endpoint(std::string_view body, const RequestContext& context);
+
 /// POST /v1/advance: returns the request of a later moment, when robots have executed a part of their plans.
 Reply advance_endpoint(std::string_view body, const RequestContext& context);
 

@@ -141,28 +141,13 @@ Reply check_plans(std::string_view body, const RequestContext& context, const Af
   return bounded_work(context, [&](core::Work& work) { return check(body, context, work, after); });
 }
 
-namespace {
-
-std::optional<core::Dependencies> made_in_memory(const std::vector<core::Robot>& robots,
-                                                 const std::vector<core::RobotPlan>& plans,
-                                                 const core::DependencyRules& rules,
-                                                 const core::StopCondition& stop) {
-  try {
-    return core::make_dependencies(robots, plans, rules, stop);
-  } catch (const std::bad_alloc&) {
-    return std::nullopt;
-  }
-}
-
-}  // namespace
-
 PlanDependencies plan_dependencies(const std::vector<core::Robot>& robots,
                                    const std::vector<core::RobotPlan>& plans,
                                    const RequestedDependencies& requested, double tolerance,
                                    bool has_obstacles, const core::StopCondition& stop) {
   const core::DependencyRules rules{requested.margins, requested.slack, tolerance};
   PlanDependencies dependencies;
-  dependencies.made = made_in_memory(robots, plans, rules, stop);
+  dependencies.made = core::dependencies_in_memory(robots, plans, rules, stop);
   if (!dependencies.made) {
     dependencies.warnings.emplace_back(
         "The dependencies could not be made with the time and memory of this request, or are too many: "

@@ -16,9 +16,11 @@
 #include "api/request/options.h"
 #include "api/request/parse_request.h"
 #include "api/response/reply.h"
+#include "api/response/write_response.h"
 #include "core/execution/dependencies.h"
 #include "core/model/plan.h"
 #include "core/model/robot.h"
+#include "core/plan/make_plan.h"
 #include "core/runtime/stop_condition.h"
 #include "core/verify/verify.h"
 
@@ -88,5 +90,16 @@ PlanDependencies plan_dependencies(const std::vector<core::Robot>& robots,
                                    const std::vector<core::RobotPlan>& plans,
                                    const RequestedDependencies& requested, double tolerance,
                                    bool has_obstacles, const core::StopCondition& stop);
+
+/// Returns the 500 for a plan that the checker rejects.
+Reply rejected_plan(const core::VerifyReport& report, const std::string& request_id);
+
+/// Writes the answer with a plan that has been checked. One that the checker rejects is a bug and becomes a
+/// 500. If the check was not finished, there is no answer: a plan that is not checked is never returned.
+/// `stages`: those before the plan was made. `on_answer`, which may be empty, gets the plan of the answer.
+/// `dependencies`: those that are known already; none: they are made if the request asks for them.
+Reply plan_answer(const core::CheckedPlan& made, const PlanRequest& request, const std::string& request_id,
+                  StageTimes stages, const AnsweredPlan& on_answer,
+                  std::optional<PlanDependencies> dependencies = {});
 
 }  // namespace fleetplan::api

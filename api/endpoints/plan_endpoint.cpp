@@ -14,6 +14,7 @@
 #include "api/response/reply.h"
 #include "api/response/write_response.h"
 #include "core/compile/instance.h"
+#include "core/execution/wait_reasons.h"
 #include "core/explain/narrow_places.h"
 #include "core/model/objective_share.h"
 #include "core/model/plan.h"
@@ -25,15 +26,19 @@
 
 namespace fleetplan::api {
 
+Reply rejected_plan(const core::VerifyReport& report, const std::string& request_id) {
+  return problem_reply(ErrorCode::internal_error,
+                       "The planner made a plan that the checker rejects (" +
+                           report.violations.front().detail +
+                           "), so it is not returned. This is a bug of the service, not of the request.",
+                       request_id);
+}
+
 namespace {
 
 /// Returns the 500 for a plan that the checker rejects.
 Reply rejected(PlanOutcome outcome, const core::VerifyReport& report, const std::string& request_id) {
-  Reply reply =
-      problem_reply(ErrorCode::internal_error,
-                    "The planner made a plan that the checker rejects (" + report.violations.front().detail +
-                        "), so it is not returned. This is a bug of the service, not of the request.",
-                    request_id);
+  Reply reply = rejected_plan(report, request_id);
   outcome.status = PlanOutcome::Status::refused;
   reply.outcome = outcome;
   return reply;
@@ -74,6 +79,18 @@ std::optional<PlanDependencies> answer_dependencies(const core::CheckedPlan& mad
                            !problem.obstacles().empty(), stop);
 }
 
+/// Returns whom robots wait for; none if the dependencies are not known, or if that is not found within the
+/// budget.
+std::optional<std::vector<std::vector<core::WaitReason>>> reasons_of_waits(
+    const core::CheckedPlan& made, const PlanRequest& request,
+    const std::optional<PlanDependencies>& dependencies, const StageTimes& stages) {
+  if (!dependencies || !dependencies->made) return std::nullopt;
+  const core::PlanOptions& options = made.task.options;
+  return core::wait_reasons(made.task.problem.robots(), made.plan.plans, *dependencies->made,
+                            options.wait_before_move, options.interval_margin,
+                            made.planning.until(stages.received + request.budget));
+}
+
 /// Returns the value of the objective; none where the flowtime or the makespan of the answer has it.
 std::optional<double> objective_value(const core::CheckedPlan& made) {
   const std::vector<core::Robot>& robots = made.task.problem.robots();
@@ -104,12 +121,11 @@ std::vector<std::string> stuck_warning(const core::Plan& plan, const std::vector
           ". blocked_by of their plans has the robots that are in their way."};
 }
 
-/// Writes the answer with a plan that has been checked. A plan that the checker rejects is a bug and becomes
-/// a 500. If the check was not finished, there is no answer: a plan that is not checked is never returned.
-/// `stages`: the stages before the plan was made. `on_answer`, which may be empty, receives the plan of the
-/// answer.
+}  // namespace
+
 Reply plan_answer(const core::CheckedPlan& made, const PlanRequest& request, const std::string& request_id,
-                  StageTimes stages, const AnsweredPlan& on_answer) {
+                  StageTimes stages, const AnsweredPlan& on_answer,
+                  std::optional<PlanDependencies> dependencies) {
   stages.planned = made.times.planned;
   stages.parts = made.times.parts;
   const core::Problem& problem = made.task.problem;
@@ -120,9 +136,10 @@ Reply plan_answer(const core::CheckedPlan& made, const PlanRequest& request, con
     return problem_reply(ErrorCode::draining, kDrainingDetail, request_id);
   if (!report) return unchecked(outcome, !problem.obstacles().empty(), request_id);
   if (!report->valid()) return rejected(outcome, *report, request_id);
-  const auto dependencies = answer_dependencies(made, request, stages);
+  if (!dependencies) dependencies = answer_dependencies(made, request, stages);
   std::vector<std::string> warnings = joined(request.warnings, stuck_warning(made.plan, problem.robots()));
   if (dependencies) warnings = joined(std::move(warnings), dependencies->warnings);
+  const auto reasons = reasons_of_waits(made, request, dependencies, stages);
   stages.verified = StageTimes::Clock::now();
   if (on_answer) on_answer(problem, made.plan);
   const VerifiedPlan verified{
@@ -135,11 +152,14 @@ Reply plan_answer(const core::CheckedPlan& made, const PlanRequest& request, con
       .metadata = request.metadata,
       .lattice_spacings = reported_spacings(made.task),
       .dependencies = dependencies ? &dependencies->made : nullptr,
+      .wait_reasons = reasons ? &*reasons : nullptr,
       .objective_value = objective_value(made),
       .narrow_places = core::narrow_places(problem, made.task.options, made.plan.unplanned, made.planning)};
   std::string text = write_response(verified, request_id, stages);
   return {.status = 200, .content_type = kJson, .body = std::move(text), .outcome = outcome};
 }
+
+namespace {
 
 using Clock = RequestContext::Clock;
 

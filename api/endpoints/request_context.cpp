@@ -16,6 +16,12 @@ void write_simulation(JsonWriter& json, const core::SimulationProgress& simulati
   json.member("collided", simulation.collided).member("deadlocked", simulation.deadlocked);
 }
 
+void write_margins(JsonWriter& json, const core::MarginProgress& margins) {
+  json.member("candidate", margins.candidate).member("candidates", margins.candidates);
+  json.member("stage", margins.stage == core::MarginProgress::Stage::plan ? "plan" : "execute");
+  json.member("runs", margins.runs).member("bad", margins.bad);
+}
+
 }  // namespace
 
 std::string write_progress(const PlanProgress& progress, double elapsed_ms) {
@@ -25,6 +31,11 @@ std::string write_progress(const PlanProgress& progress, double elapsed_ms) {
   json.member("elapsed_ms", elapsed_ms);
   if (progress.simulation) {
     write_simulation(json, *progress.simulation);
+    json.end_object();
+    return json.take();
+  }
+  if (progress.margins) {
+    write_margins(json, *progress.margins);
     json.end_object();
     return json.take();
   }

@@ -19,17 +19,20 @@
 #include "core/model/problem.h"
 #include "core/model/progress.h"
 #include "core/plan/make_plan.h"
+#include "core/plan/margins.h"
 #include "core/runtime/budget.h"
 #include "core/runtime/executor.h"
 #include "core/runtime/stop_condition.h"
 
 namespace fleetplan::api {
 
-/// The progress of planning a request, or of a simulation.
+/// The progress of planning a request, of a simulation, or of finding margins.
 struct PlanProgress {
   std::size_t robots = 0;  // robots of the request
   core::Progress planner = {};
-  std::optional<core::SimulationProgress> simulation = {};  // instead of the planner's progress
+  // Instead of the planner's progress:
+  std::optional<core::SimulationProgress> simulation = {};
+  std::optional<core::MarginProgress> margins = {};
 };
 
 /// Receives the events while a plan is made or simulated (`text/event-stream`). The planning thread calls it

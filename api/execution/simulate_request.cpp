@@ -76,15 +76,38 @@ core::Disturbance parse_disturbance(const JsonReader& member) {
   return disturbance;
 }
 
-// Members of answers beside the plans are ignored, except `dependencies`.
+// In the order of core::ExecutionPolicy.
+constexpr std::array<std::string_view, 4> kPolicies{"open_loop", "absorb_waits", "dependencies",
+                                                    "clock_stop"};
+
+}  // namespace
+
+std::string_view name_of(core::ExecutionPolicy policy) { return kPolicies[static_cast<std::size_t>(policy)]; }
+
+RequestedExecution parse_execution(const JsonReader& root, std::vector<std::string>& warnings) {
+  RequestedExecution execution;
+  const JsonReader policy =
+      root.require("policy", "; give \"open_loop\", \"absorb_waits\", \"dependencies\" or \"clock_stop\"");
+  if (const auto word = policy.word(kPolicies)) execution.policy = static_cast<core::ExecutionPolicy>(*word);
+  const JsonReader max_delay = root.find("max_delay");
+  execution.max_delay = max_delay.number(kDuration).value_or(0.0);
+  const bool has_clock = execution.policy == core::ExecutionPolicy::clock_stop;
+  if (has_clock) root.require("max_delay", "; the policy \"clock_stop\" needs it: seconds");
+  if (max_delay && !has_clock) {
+    warnings.emplace_back("max_delay has no effect: it belongs to the policy \"clock_stop\".");
+  }
+  execution.disturbance = parse_disturbance(root.find("disturbance"));
+  return execution;
+}
+
+namespace {
+
+// What answers have beside the plans is ignored, but for `dependencies`.
 constexpr std::array<std::string_view, 7> kSimulationMembers{"plans", "policy", "max_delay", "disturbance",
                                                              "runs",  "seed",   "trace"};
 constexpr auto kSimulateRequestMembers =
     joined(kFleetMembers, kSimulationMembers, kPlanAnswerMembers, kAddedMembers);
 
-// In the order of core::ExecutionPolicy.
-constexpr std::array<std::string_view, 4> kPolicies{"open_loop", "absorb_waits", "dependencies",
-                                                    "clock_stop"};
 constexpr std::size_t kDefaultRuns = 100;
 constexpr std::uint64_t kMaxSimulationSeed = std::numeric_limits<std::uint64_t>::max();  // like the options'
 
@@ -103,30 +126,6 @@ void join_actions(const JsonReader& member, const std::vector<core::Robot>& robo
     }
     plan->cost = plan->actions.empty() ? 0.0 : plan->actions.back().t_end;
     ++plan;
-  }
-}
-
-void parse_policy(const JsonReader& root, SimulateRequest& request) {
-  const JsonReader policy =
-      root.require("policy", "; give \"open_loop\", \"absorb_waits\", \"dependencies\" or \"clock_stop\"");
-  if (const auto word = policy.word(kPolicies)) request.policy = static_cast<core::ExecutionPolicy>(*word);
-  const JsonReader max_delay = root.find("max_delay");
-  request.max_delay = max_delay.number(kDuration).value_or(0.0);
-  const bool has_clock = request.policy == core::ExecutionPolicy::clock_stop;
-  if (has_clock) root.require("max_delay", "; the policy \"clock_stop\" needs it: seconds");
-  if (max_delay && !has_clock) {
-    request.warnings.emplace_back("max_delay has no effect: it belongs to the policy \"clock_stop\".");
-  }
-}
-
-/// Makes plans of the committed actions of robots that have no plan.
-void add_commitments(SimulateRequest& request) {
-  std::vector<bool> has_plan(request.robots.size(), false);
-  for (const core::RobotPlan& plan : request.plans) has_plan[plan.robot] = true;
-  for (std::size_t robot = 0; robot < request.robots.size(); ++robot) {
-    const core::Robot& owner = request.robots[robot];
-    if (has_plan[robot] || owner.invalid || owner.committed.empty()) continue;
-    request.plans.push_back({robot, owner.committed_until(), owner.committed});
   }
 }
 
@@ -198,15 +197,17 @@ Result<SimulateRequest, RequestError> parse_simulate_request(std::string_view bo
                             .robots = {},
                             .plans = std::move(plans),
                             .body_radii = {}};
-    parse_policy(root, request);
+    const RequestedExecution execution = parse_execution(root, request.warnings);
+    request.policy = execution.policy;
+    request.max_delay = execution.max_delay;
     parse_runs(root, limits, request);
-    request.settings.disturbance = parse_disturbance(root.find("disturbance"));
+    request.settings.disturbance = execution.disturbance;
     take_fleet(fleet, limits, request);
     if (fleet.options.invalid_robots == InvalidRobots::report) {
       mark_invalid_robots(root.find("unplanned"), request.robots);
     }
     if (root.fault_count() == 0) join_actions(list, request.robots, request.plans);
-    add_commitments(request);
+    core::add_commitments(request.robots, request.plans);
     parse_all_dependencies(root, request);
     return reading.met() ? std::nullopt : std::optional(std::move(request));
   };

@@ -279,8 +279,8 @@ constexpr std::array<ErrorRow, 21> kTable{{
      "The body is JSON, but not a valid request. `errors` lists the first twenty faults in the order "
      "of the document; `errors_total` counts all."},
     {ErrorCode::check_unfinished, 422, "check_unfinished", "Check Not Finished",
-     "`/v1/validate` could not check the plans within the budget, `/v1/simulate` finished no run, or "
-     "`/v1/matrix` or `/v1/assign` did not have all travel times."},
+     "`/v1/validate` could not check the plans within the budget, `/v1/simulate` finished no run, "
+     "`/v1/margins` too few, or `/v1/matrix` or `/v1/assign` did not have all travel times."},
     {ErrorCode::memory_exceeded, 422, "memory_exceeded", "Memory Limit Exceeded",
      "The request needs more memory than `max_plan_memory` of `GET /v1/limits`, so that there is not even a "
      "partial plan."},

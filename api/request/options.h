@@ -127,6 +127,8 @@ struct RequestedDependencies {
   bool wanted = false;          // the answer with a plan has dependencies
   double slack = 0.1;           // seconds, > 0
   std::vector<double> margins;  // by robot: metres, >= 0
+  double common_margin = 0.0;   // metres, of robots that have none of their own
+  std::vector<bool> has_own;    // by robot: whether it has a margin of its own
 };
 
 }  // namespace fleetplan::api

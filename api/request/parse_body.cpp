@@ -281,9 +281,12 @@ RequestError unfinished(const core::Work& work) {
 }
 
 RequestedDependencies requested_dependencies(const Fleet& fleet) {
-  RequestedDependencies requested{fleet.options.dependencies, fleet.options.dependency_slack, {}};
+  const ParsedOptions& options = fleet.options;
+  RequestedDependencies requested{
+      options.dependencies, options.dependency_slack, {}, options.execution_margin, {}};
   for (const ParsedRobot& read : fleet.robots) {
-    requested.margins.push_back(read.execution_margin.value_or(fleet.options.execution_margin));
+    requested.margins.push_back(read.execution_margin.value_or(options.execution_margin));
+    requested.has_own.push_back(read.execution_margin.has_value());
   }
   return requested;
 }

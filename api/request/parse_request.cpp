@@ -266,6 +266,10 @@ std::optional<PlanRequest> parse_plan_request(const JsonReader& request, const L
     work.set_budget(effective_budget(options, limits));
   });
   if (!fleet.map || work.met()) return std::nullopt;
+  std::vector<double> body_radii;
+  for (const ParsedRobot& read : fleet.robots) {
+    body_radii.push_back(read.body_radius.value_or(read.robot.radius));
+  }
   auto made = make_problem(fleet, request, work, maps);
   if (!made) return std::nullopt;
   std::vector<std::string> warnings = std::move(fleet.options.warnings);
@@ -279,7 +283,8 @@ std::optional<PlanRequest> parse_plan_request(const JsonReader& request, const L
                    .received = std::move(repeated),
                    .metadata = std::move(fleet.metadata),
                    .dependencies = requested_dependencies(fleet),
-                   .open = std::move(made->open)};
+                   .open = std::move(made->open),
+                   .body_radii = std::move(body_radii)};
   if (read.open) tell_choices(read.open->goals, read.received);
   return read;
 }

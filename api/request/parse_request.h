@@ -39,6 +39,7 @@ struct PlanRequest {
   std::string metadata;                 // see parse_metadata
   RequestedDependencies dependencies;
   std::optional<core::OpenFleet> open = {};  // if goals are open; the problem is made of these robots
+  std::vector<double> body_radii;            // by robot: metres, of the robot itself, when it is executed
 };
 
 /// Tells the answer which poses are chosen for the open goals.

@@ -41,10 +41,12 @@ bool same(const core::Action& a, const core::Action& b) {
 class ActionWriter {
  public:
   ActionWriter(JsonWriter& json, const core::Robot& robot, const ReceivedRobot& received,
-               const core::Position& origin)
-      : json_(json), robot_(robot), received_(received), origin_(origin) {}
+               const core::Position& origin, const NamedReasons& reasons)
+      : json_(json), robot_(robot), received_(received), origin_(origin), reasons_(reasons) {}
 
+  /// Writes the next action, whose number is `index`.
   void write(const core::Action& action, std::size_t index) {
+    index_ = index;
     if (const core::Action* world = as_received(action, index)) {
       write_members(action, world->t_start, world->t_end, world->from, world->to);
       end_ = End{action.to.position, world->to.position};
@@ -84,10 +86,23 @@ class ActionWriter {
     json_.member("t_start", t_start).member("t_end", t_end);
     if (action.goal) json_.member("goal", *action.goal);
     if (action.reverse) json_.member("reverse", true);
+    write_reason();
     if (action.profile) write_profile(json_, *action.profile);
     write_pose("from", from);
     write_pose("to", to);
     json_.end_object();
+  }
+
+  /// Writes the member `for` of a wait that ends when others have passed.
+  void write_reason() {
+    if (reasons_.list == nullptr) return;
+    const std::vector<core::WaitReason>& list = *reasons_.list;
+    // Bounded: each reason once, as actions ascend.
+    while (next_reason_ < list.size() && list[next_reason_].action < index_) ++next_reason_;
+    if (next_reason_ == list.size() || list[next_reason_].action != index_) return;
+    json_.key("for").begin_array();
+    for (const std::size_t other : list[next_reason_].robots) json_.value((*reasons_.robots)[other].id);
+    json_.end_array();
   }
 
   void write_pose(std::string_view key, const core::Pose& pose) {
@@ -100,6 +115,9 @@ class ActionWriter {
   const core::Robot& robot_;
   const ReceivedRobot& received_;
   const core::Position& origin_;
+  const NamedReasons& reasons_;
+  std::size_t index_ = 0;
+  std::size_t next_reason_ = 0;
   std::optional<End> end_;  // the end of the last action with the numbers received
 };
 
@@ -113,11 +131,11 @@ void write_profile(JsonWriter& json, const core::SpeedProfile& profile) {
 
 bool write_actions(JsonWriter& json, const std::vector<core::Action>& actions, const core::Robot& robot,
                    const ReceivedRobot& received, const core::Position& origin,
-                   const core::StopCondition* stop) {
+                   const core::StopCondition* stop, const NamedReasons& reasons) {
   constexpr std::size_t kActionsAtOnce = 64;  // between two questions
   std::optional<core::StopStride> stride;
   if (stop != nullptr) stride = core::StopStride::from_first(*stop, kActionsAtOnce);
-  ActionWriter writer(json, robot, received, origin);
+  ActionWriter writer(json, robot, received, origin, reasons);
   json.key("actions").begin_array();
   for (std::size_t index = 0; index < actions.size(); ++index) {
     if (stride && stride->met_at_step()) return false;
@@ -298,7 +316,9 @@ void write_plan(JsonWriter& json, const core::RobotPlan& plan, const VerifiedPla
     write_blocked_by(json, plan.blocked_by, verified);
   }
   write_own_lattice(json, plan.robot, verified);
-  write_actions(json, plan.actions, robot, received, verified.origin);
+  NamedReasons reasons{nullptr, &verified.problem.robots()};
+  if (verified.wait_reasons != nullptr) reasons.list = &(*verified.wait_reasons)[plan.robot];
+  write_actions(json, plan.actions, robot, received, verified.origin, nullptr, reasons);
   if (received.lists_visits || puts_off) write_visits(json, plan, verified);
   write_metadata(json, received.metadata);
   json.end_object();

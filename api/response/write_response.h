@@ -10,6 +10,7 @@
 #include "api/json/json_writer.h"
 #include "api/request/shared_members.h"
 #include "core/execution/dependencies.h"
+#include "core/execution/wait_reasons.h"
 #include "core/fleet/enclosure.h"
 #include "core/geometry/position.h"
 #include "core/model/action.h"
@@ -47,6 +48,8 @@ struct VerifiedPlan {
   std::vector<double> lattice_spacings;  // by robot, metres; empty: neither asked for nor chosen
   /// The dependencies of the answer. Null if they were not asked for; none if they were not made in time.
   const std::optional<core::Dependencies>* dependencies = nullptr;
+  /// By robot: whom it waits for; null if the dependencies are not known.
+  const std::vector<std::vector<core::WaitReason>>* wait_reasons = nullptr;
   std::optional<double> objective_value = {};  // none: it is the flowtime or the makespan
   /// By robot of plan.unplanned: where its way is too narrow. May be empty.
   std::vector<std::optional<core::NarrowPlace>> narrow_places = {};
@@ -56,13 +59,20 @@ struct VerifiedPlan {
 std::string write_response(const VerifiedPlan& verified, const std::string& request_id,
                            const StageTimes& stages);
 
-/// Writes the member `actions` of a robot. Committed actions, and previous actions that the plan repeats,
-/// have the numbers received. The next action begins with the position in which they end. `origin`: the map's
-/// origin in the world. `stop` may be null. Returns false if it is met first; then only a part of the text is
-/// written.
+/// Whom one robot waits for, and the robots that have the names.
+struct NamedReasons {
+  const std::vector<core::WaitReason>* list = nullptr;  // by ascending actions; null: not known
+  const std::vector<core::Robot>* robots = nullptr;
+};
+
+/// Writes the member `actions` of a robot. Committed actions, and previous ones that the plan repeats, have
+/// the numbers received; what follows begins with the position in which they end. `origin` is that of the map
+/// in the world. `reasons`: the member `for` of waits, if
+/// whom they are for is known.
+/// Returns false, with a part of the text written, if `stop`, which may be null, is met first.
 bool write_actions(JsonWriter& json, const std::vector<core::Action>& actions, const core::Robot& robot,
                    const ReceivedRobot& received, const core::Position& origin,
-                   const core::StopCondition* stop = nullptr);
+                   const core::StopCondition* stop = nullptr, const NamedReasons& reasons = {});
 
 /// Writes the member `profile` of an action.
 void write_profile(JsonWriter& json, const core::SpeedProfile& profile);

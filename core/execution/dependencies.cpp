@@ -339,4 +339,14 @@ std::optional<Dependencies> make_dependencies(const std::vector<Robot>& robots,
   return DependencyMaker(robots, plans, rules, stop).run();
 }
 
+std::optional<Dependencies> dependencies_in_memory(const std::vector<Robot>& robots,
+                                                   const std::vector<RobotPlan>& plans,
+                                                   const DependencyRules& rules, const StopCondition& stop) {
+  try {
+    return make_dependencies(robots, plans, rules, stop);
+  } catch (const std::bad_alloc&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace fleetplan::core

@@ -87,4 +87,9 @@ std::optional<Dependencies> make_dependencies(const std::vector<Robot>& robots,
                                               const std::vector<RobotPlan>& plans,
                                               const DependencyRules& rules, const StopCondition& stop);
 
+/// The same, but returns none if the memory of the job does not suffice, either.
+std::optional<Dependencies> dependencies_in_memory(const std::vector<Robot>& robots,
+                                                   const std::vector<RobotPlan>& plans,
+                                                   const DependencyRules& rules, const StopCondition& stop);
+
 }  // namespace fleetplan::core

@@ -192,6 +192,9 @@ inline Duration for_answer_of_runs(Duration budget) {
   return std::min<Duration>(budget / 10, std::chrono::milliseconds(50));
 }
 
+/// The share of the time for margins in which their candidates are planned; the rest is for the runs.
+inline constexpr double kShareOfCandidates = 0.4;
+
 /// Returns the part of the budget for the answer with travel times or an assignment.
 inline Duration for_answer_of_travel(Duration budget) {
   return std::min<Duration>(budget / 10, std::chrono::milliseconds(100));

@@ -11,8 +11,9 @@
 /// 4. problem.h: all of these together, and the faults of a problem.
 /// 5. options.h: how to plan.
 /// 6. planner.h, plan.h: the call, and what it returns.
-/// 7. verify.h: the independent check of plans from any source.
-/// 8. limits.h: the ranges of numbers.
+/// 7. margins.h: which margins a plan needs, and the plan that has them.
+/// 8. verify.h: the independent check of plans from any source.
+/// 9. limits.h: the ranges of numbers.
 ///
 /// The conventions of all headers:
 ///
@@ -42,6 +43,7 @@
 #include <fleetplan/fault.h>
 #include <fleetplan/limits.h>
 #include <fleetplan/map.h>
+#include <fleetplan/margins.h>
 #include <fleetplan/options.h>
 #include <fleetplan/plan.h>
 #include <fleetplan/planner.h>

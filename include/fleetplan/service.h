@@ -20,6 +20,7 @@ enum class Endpoint {
   dependencies,    // POST /v1/dependencies
   advance,         // POST /v1/advance
   simulate,        // POST /v1/simulate
+  margins,         // POST /v1/margins
   retime,          // POST /v1/retime
   matrix,          // POST /v1/matrix
   assign,          // POST /v1/assign

@@ -34,6 +34,8 @@ EndpointFunction function_of(Endpoint endpoint) {
       return api::advance_endpoint;
     case Endpoint::simulate:
       return api::simulate_endpoint;
+    case Endpoint::margins:
+      return api::margins_endpoint;
     case Endpoint::retime:
       return api::retime_endpoint;
     case Endpoint::matrix:

@@ -143,6 +143,15 @@ class TerminalProgress : public api::PlanEvents {
     terminal_ << "\r\033[K";
     if (progress.simulation) {
       terminal_ << progress.simulation->done << " of " << progress.simulation->runs << " runs";
+    } else if (progress.margins) {
+      const core::MarginProgress& margins = *progress.margins;
+      const bool is_planned = margins.stage == core::MarginProgress::Stage::plan;
+      terminal_ << "candidate " << margins.candidate + 1 << " of " << margins.candidates << ": ";
+      if (is_planned) {
+        terminal_ << "planning";
+      } else {
+        terminal_ << margins.runs << " runs, " << margins.bad << " bad";
+      }
     } else {
       terminal_ << progress.planner.planned << " of " << progress.robots << " robots planned";
       if (const auto& best = progress.planner.best) terminal_ << ", flowtime " << best->flowtime << " s";
@@ -181,7 +190,7 @@ int exit_code_of(const api::Reply& reply) {
                                                       : kNone;
   }
   const Json answer = Json::parse(reply.body);
-  return answer.value("valid", true) ? kSolved : kPartial;
+  return answer.value("valid", true) && answer.value("met", true) ? kSolved : kPartial;
 }
 
 /// Draws the pictures that a command asks for, of the plan that is answered.
@@ -252,10 +261,11 @@ struct Command {
   Service::Endpoint Service::*endpoint;
 };
 
-constexpr std::array<Command, 10> kCommands{{
+constexpr std::array<Command, 11> kCommands{{
     {"plan", "Plan the motions of all robots", &Service::plan},
     {"validate", "Check plans: exit code 2 if they are not valid", &Service::validate},
     {"simulate", "Execute plans many times with disturbances", &Service::simulate},
+    {"margins", "Find margins that hold: exit code 2 if none meets the aim", &Service::margins},
     {"advance", "Move a request to a later moment of its plans", &Service::advance},
     {"dependencies", "List what robots must wait for in a plan", &Service::dependencies},
     {"retime", "Give a plan new times after delays", &Service::retime},

@@ -12,6 +12,7 @@ Service planning_service() {
   Service service{.plan = api::plan_endpoint,
                   .validate = api::validate_endpoint,
                   .simulate = api::simulate_endpoint,
+                  .margins = api::margins_endpoint,
                   .advance = api::advance_endpoint,
                   .dependencies = api::dependencies_endpoint,
                   .retime = api::retime_endpoint,

@@ -22,6 +22,7 @@ struct Service {
   Endpoint plan;  // with progress
   Endpoint validate;
   Endpoint simulate;  // with progress
+  Endpoint margins;   // with progress
   Endpoint advance;   // takes milliseconds once it has its turn
   Endpoint dependencies;
   Endpoint retime;  // takes milliseconds once it has its turn

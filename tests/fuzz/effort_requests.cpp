@@ -429,6 +429,20 @@ Json matrix_of(const Json& request) {
   return matrix;
 }
 
+/// Margins for a request to plan, of many candidates.
+Json margins_of(Json request, Choices& choices) {
+  Json body{{"disturbance", disturbance_of(choices)}};
+  // It may be that nothing disturbs.
+  body["disturbance"]["start_delay"] = {{"min", 0.0}, {"max", choices.one_of(std::array{0.1, 1e6})}};
+  body["policy"] = choices.one_of(std::array{"open_loop", "absorb_waits", "dependencies", "clock_stop"});
+  if (body["policy"] == "clock_stop") body["max_delay"] = choices.one_of(std::array{0.0, 1.0, 1e8});
+  body["aim"] = {{"collisions", choices.one_of(std::array{0.5, 0.01, 1e-4})}};
+  if (choices.yes()) body["try"]["interval_margin"] = {0.0, 1e-3, 1.0, 1e3, 1e8};
+  if (choices.yes()) body["try"]["inflation"] = {0.0, 1e-3, 0.2, 10.0};
+  body["request"] = std::move(request);
+  return body;
+}
+
 /// Tasks for the robots of a request to plan, at their starts and goals.
 Json tasks_of(Json request, Choices& choices) {
   const std::size_t robots = request["robots"].size();
@@ -477,7 +491,7 @@ Effort planning_effort(Choices choices) {
   const std::size_t memory = static_cast<std::size_t>(1 + choices.up_to(63)) << 20;
   add_members(request, choices);
   const std::size_t count = request["robots"].size();
-  const int kind = choices.up_to(3);
+  const int kind = choices.up_to(4);
   if (kind == 2) {
     add_files(request, choices);
     return {api::matrix_endpoint, false, matrix_of(request).dump(), count, steps, memory};
@@ -486,6 +500,10 @@ Effort planning_effort(Choices choices) {
     Json body = tasks_of(std::move(request), choices);
     add_files(body["request"], choices);
     return {api::assign_endpoint, false, body.dump(), count, steps, memory};
+  }
+  if (kind == 4) {
+    Json body = margins_of(std::move(request), choices);
+    return {api::margins_endpoint, false, body.dump(), count, steps, memory};
   }
   if (choices.yes()) {  // two sizes
     for (std::size_t k = 1; k < count; k += 2) request["robots"][k]["radius"] = 0.5 * radius;

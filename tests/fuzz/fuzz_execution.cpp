@@ -16,9 +16,9 @@ namespace TEST_FILE {
 
 using Endpoint = api::Reply (*)(std::string_view, const api::RequestContext&);
 
-constexpr std::array<Endpoint, 5> kEndpoints{api::dependencies_endpoint, api::simulate_endpoint,
-                                             api::retime_endpoint, api::vda5050_endpoint,
-                                             api::import_vda5050_endpoint};
+constexpr std::array<Endpoint, 6> kEndpoints{api::dependencies_endpoint, api::simulate_endpoint,
+                                             api::margins_endpoint,      api::retime_endpoint,
+                                             api::vda5050_endpoint,      api::import_vda5050_endpoint};
 
 void run(Input input) {
   const std::string_view body = text_of(input);

@@ -59,7 +59,7 @@ TEST_P(LibraryMembers, AreThoseOfTheService) {
 
 // `metadata` is repeated as it is; margins that become an inflation, programs add as they like. The library
 // has no zones that are entered only to leave them (`enter`), calls `after` of obstacles `stays`, and its
-// lists are whole.
+// lists are whole. It has no dependencies with a plan alone, so it cannot tell whom a wait is for.
 INSTANTIATE_TEST_SUITE_P(
     Of, LibraryMembers,
     testing::Values(Case{"RobotDefaults", {"execution_margin", "stop_distance", "body_radius"}},
@@ -68,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"PlanOptions",
                          {"time_budget_ms", "dependencies", "dependency_slack", "execution_margin"}},
                     Case{"BlockedZone", {"enter"}}, Case{"SpeedZone", {}}, Case{"OneWayZone", {}},
-                    Case{"Obstacle", {"after"}}, Case{"Action", {}},
+                    Case{"Obstacle", {"after"}}, Case{"Action", {"for"}},
                     Case{"RobotPlan", {"ends_at", "blocked_by_total", "metadata"}},
                     Case{"Unplanned", {"blocked_by_total", "errors", "metadata"}}, Case{"Violation", {}}),
     [](const testing::TestParamInfo<Case>& of) { return of.param.schema; });

@@ -130,6 +130,12 @@ const KINDS = {
   },
   "/v1/dependencies": { component: "ValidateRequest", acceptable: executions.checks() },
   "/v1/simulate": { component: "SimulateRequest", acceptable: executions.simulations() },
+  "/v1/margins": {
+    component: "MarginsRequest",
+    acceptable: executions.margins(),
+    within: "/request",
+    sound: expectTheTest,
+  },
   "/v1/retime": { component: "RetimeRequest", acceptable: executions.retimings() },
   "/v1/matrix": { component: "MatrixRequest", acceptable: executions.matrices(), sound: expectWhole },
   "/v1/assign": {
@@ -150,7 +156,7 @@ const KINDS = {
 
 /** Problems that a time budget may cause where all else is right, on a machine that is very busy. */
 const UNFINISHED = {
-  check_unfinished: ["/v1/validate", "/v1/dependencies", "/v1/simulate", "/v1/matrix", "/v1/assign"],
+  check_unfinished: ["/v1/validate", "/v1/dependencies", "/v1/simulate", "/v1/margins", "/v1/matrix", "/v1/assign"],
   parse_unfinished: Object.keys(KINDS),
 };
 
@@ -238,6 +244,17 @@ function expectEachTaskOnce({ tasks }, { assigned, unassigned }) {
   assert.equal(new Set(assigned.map(({ robot }) => robot)).size, assigned.length);
 }
 
+/** The best candidate is met and has the plan; each share is within its interval. */
+function expectTheTest(_request, { met, best, plan, tried }) {
+  assert.equal(met, best !== null);
+  assert.equal(met, plan !== null);
+  if (met) assert.equal(tried[best].status, "met");
+  for (const { runs, bad, share, share_low, share_high } of tried.filter(({ runs }) => runs > 0)) {
+    assert.equal(share, bad / runs);
+    assert.ok(share_low <= share && share <= share_high);
+  }
+}
+
 /** The milliseconds that the service may take for a request. */
 function budgetOf(value) {
   const given = (value?.request ?? value)?.options?.time_budget_ms;
@@ -309,5 +326,5 @@ for (const [path, { component, plausible, acceptable }] of Object.entries(KINDS)
 }
 
 const EVENTS = { accepts: true, headers: { Accept: "text/event-stream" } };
-for (const path of ["/v1/plan", "/v1/simulate"])
+for (const path of ["/v1/plan", "/v1/simulate", "/v1/margins"])
   property("requests are served with events", path, KINDS[path].acceptable.map(textOf), [200], EVENTS);

@@ -74,6 +74,17 @@ class WithTheService(unittest.TestCase):
         *_, last = self.client.simulate_events(self.request, self.answer, "dependencies", disturbance=disturbance, runs=50)
         self.assertEqual(last["data"]["flowtime"], figures["flowtime"])
 
+    def test_margins_are_found_with_the_plan_that_has_them(self):
+        disturbance = {"speed": {"min": 0.8, "max": 1.0}}
+        found = self.client.margins(self.request, "dependencies", disturbance, aim={"collisions": 0.1},
+                                    try_={"interval_margin": [0.0, 0.5]})
+        self.assertTrue(found["met"])
+        self.assertEqual(found["plan"]["status"], "solved")
+        *progress, last = self.client.margins_events(self.request, "dependencies", disturbance, aim={"collisions": 0.1},
+                                                     try_={"interval_margin": [0.0, 0.5]})
+        self.assertEqual({one["event"] for one in progress}, {"progress"})
+        self.assertEqual(last["data"]["tried"], found["tried"])
+
     def test_the_next_moment_is_planned(self):
         following = self.client.advance(self.request, self.answer, 2.0, commit=1.0,
                                         holds=[{"robot": "east-bound", "until": 3.0}])

@@ -22,7 +22,7 @@ OF_ADVANCE = {"progress", "unavoidable", "unavoidable_total"}
 OF_ASSIGN = {"assigned", "unassigned"}
 IGNORED = {"PlanRequest": OF_ADVANCE | OF_ASSIGN, "AdvanceAnswer": OF_ASSIGN, "AssignAnswer": OF_ADVANCE}
 # `problem` is raised.
-WITHOUT = {"PlanEvent": 3, "SimulationEvent": 2}
+WITHOUT = {"PlanEvent": 3, "SimulationEvent": 2, "MarginsEvent": 2}
 
 
 def resolve(schema):
@@ -146,6 +146,8 @@ class Methods(Comparison):
         self.compare_method("dependencies", "/v1/dependencies", {**self.PLANS, "plans": {*self.PLANS["plans"], "tolerance"}})
         self.compare_method("simulate", "/v1/simulate", self.PLANS)
         self.compare_method("simulate_events", "/v1/simulate", self.PLANS)
+        self.compare_method("margins", "/v1/margins", {"try_": {"try"}})
+        self.compare_method("margins_events", "/v1/margins", {"try_": {"try"}})
         self.compare_method("advance", "/v1/advance", {})
         self.compare_method("retime", "/v1/retime", self.PARTS)
         self.compare_method("matrix", "/v1/matrix", {"request": {"map", "zones", "options"}, "from_": {"from"}})
@@ -155,7 +157,7 @@ class Methods(Comparison):
 
     def test_they_return_the_types_of_answers(self):
         paths = {"plan": "/v1/plan", "validate": "/v1/validate", "dependencies": "/v1/dependencies",
-                 "simulate": "/v1/simulate", "advance": "/v1/advance", "retime": "/v1/retime",
+                 "simulate": "/v1/simulate", "margins": "/v1/margins", "advance": "/v1/advance", "retime": "/v1/retime",
                  "matrix": "/v1/matrix", "assign": "/v1/assign",
                  "export_vda5050": "/v1/export/vda5050", "import_vda5050": "/v1/import/vda5050", "limits": "/v1/limits", "health": "/healthz"}
         for name, path in paths.items():

@@ -249,8 +249,9 @@ core::Action ActionChain::joined(core::Action action) const {
 
 namespace {
 
-constexpr std::array<std::string_view, 8> kActionMembers{"type", "t_start", "t_end",   "from",
-                                                         "to",   "goal",    "reverse", "profile"};
+// `for` of answers is ignored.
+constexpr std::array<std::string_view, 9> kActionMembers{"type", "t_start", "t_end",   "from", "to",
+                                                         "goal", "reverse", "profile", "for"};
 constexpr std::array<std::string_view, 3> kProfileMembers{"start", "cruise", "end"};
 constexpr std::array<std::string_view, 3> kPoseMembers{"x", "y", "theta"};
 constexpr std::array<std::string_view, 3> kTypes{"rotate", "translate", "wait"};  // see core::Action::Type

@@ -13,11 +13,11 @@ from urllib.parse import quote
 from fleetplan.errors import (ConnectionFailed, FleetplanError, InvalidAnswer, InvalidValue, ProblemError, problem_error,
                               shown)
 from fleetplan.http import Bounds, Pool, Response, read_json, write_json
-from fleetplan.types import (AdvanceAnswer, AssignAnswer, DependenciesAnswer, Disturbance, Health, Hold, Limits,
-                             LoneRobot, MatrixAnswer, MeasuredPose, NewGoals, OrderBase, OrderProgress, PacedState,
-                             PlanAnswer, PlanEvent, PlanRequest, Plans, RetimeAnswer, RobotState, SimulationAnswer,
-                             SimulationEvent, Task, TravelPose, Vda5050Answer, Vda5050States, VdaMessage, VehiclePose,
-                             Verdict)
+from fleetplan.types import (AdvanceAnswer, Aim, AssignAnswer, DependenciesAnswer, Disturbance, Health, Hold, Limits,
+                             LoneRobot, MarginsAnswer, MarginsEvent, MarginValues, MatrixAnswer, MeasuredPose, NewGoals,
+                             OrderBase, OrderProgress, PacedState, PlanAnswer, PlanEvent, PlanRequest, Plans,
+                             RetimeAnswer, RobotState, SimulationAnswer, SimulationEvent, Task, TravelPose,
+                             Vda5050Answer, Vda5050States, VdaMessage, VehiclePose, Verdict)
 
 _PROBLEM_WITHOUT_BODY = "the answer is not problem details; is this a proxy?"
 _RETRY_AFTER = 1.0  # seconds, if the server does not say
@@ -119,6 +119,26 @@ class Client:
         for name, data in self._events("/v1/simulate", body, "simulation"):
             yield cast(SimulationEvent, {"event": name, "data": data})
 
+    def margins(self, request: PlanRequest, policy: Literal["open_loop", "absorb_waits", "dependencies", "clock_stop"],
+                disturbance: Disturbance, *, max_delay: float | None = None, aim: Aim | None = None,
+                runs: int | None = None, seed: int | None = None,
+                try_: MarginValues | None = None) -> MarginsAnswer:
+        """The cheapest margins with which a plan of the request holds when it is executed so, and that plan."""
+        body = _given({"try": try_} if try_ is not None else {}, request=request, policy=policy, disturbance=disturbance,
+                      max_delay=max_delay, aim=aim, runs=runs, seed=seed)
+        return cast(MarginsAnswer, self._post("/v1/margins", body, request))
+
+    def margins_events(self, request: PlanRequest,
+                       policy: Literal["open_loop", "absorb_waits", "dependencies", "clock_stop"],
+                       disturbance: Disturbance, *, max_delay: float | None = None, aim: Aim | None = None,
+                       runs: int | None = None, seed: int | None = None,
+                       try_: MarginValues | None = None) -> Generator[MarginsEvent, None, None]:
+        """The events `progress` as they happen; the last one is `margins`, with the answer."""
+        body = _given({"try": try_} if try_ is not None else {}, request=request, policy=policy, disturbance=disturbance,
+                      max_delay=max_delay, aim=aim, runs=runs, seed=seed)
+        for name, data in self._events("/v1/margins", body, "margins", request):
+            yield cast(MarginsEvent, {"event": name, "data": data})
+
     def retime(self, request: PlanRequest, plans: Plans, at: float, states: Sequence[PacedState]) -> RetimeAnswer:
         """When robots will arrive that are in these states at the moment `at`. The plans have dependencies."""
         body = _given(_part(request, "robots", "robot_defaults", "options"), _part(plans, "plans", "dependencies"),
@@ -192,9 +212,11 @@ class Client:
             raise InvalidAnswer(f"{self._pool.url}{path} answers {text[:80]!r}, which is no object")
         return value
 
-    def _events(self, path: str, body: Mapping[str, object], last: str) -> Iterator[tuple[str, object]]:
-        """Events come at least four times per second, so the server is never silent for long."""
-        whole = self._timeout + _budget(body)
+    def _events(self, path: str, body: Mapping[str, object], last: str,
+                request: Mapping[str, object] | None = None) -> Iterator[tuple[str, object]]:
+        """Events come at least four times per second, so the server is never silent for long. `request`: as in
+        _post."""
+        whole = self._timeout + _budget(request or body)
         with self._send("POST", path, "text/event-stream", body, self._timeout, whole) as response:
             for event in response.events():
                 data = read_json(event.data)

@@ -187,7 +187,11 @@ class Profile(TypedDict):
     end: float
 
 
-class Action(_Ends):
+# `for` is a keyword, too.
+_WaitsFor = TypedDict("_WaitsFor", {"for": list[str]}, total=False)
+
+
+class Action(_Ends, _WaitsFor):
     type: ActionType
     t_start: float
     t_end: float
@@ -658,6 +662,78 @@ class SimulatedEvent(TypedDict):
 
 
 SimulationEvent: TypeAlias = SimulationProgressEvent | SimulatedEvent
+
+
+# ---------------------------------------------------------------- /v1/margins
+
+
+class Aim(TypedDict, total=False):
+    collisions: float
+    confidence: float
+
+
+class MarginValues(TypedDict, total=False):
+    interval_margin: list[float]
+    inflation: list[float]
+    wait_before_move: list[float]
+
+
+class MarginOptions(TypedDict):
+    interval_margin: float
+    inflation: float
+    wait_before_move: float
+    dependencies: NotRequired[bool]
+    execution_margin: NotRequired[float]
+
+
+class TriedMargins(TypedDict):
+    options: MarginOptions
+    status: Literal["met", "not_met", "undecided", "not_planned", "not_run"]
+    planned: Objectives | None
+    runs: int
+    bad: int
+    share: float | None
+    share_low: float | None
+    share_high: float | None
+    collided: int
+    deadlocked: int
+    executed: Objectives | None
+    tight: int | None
+    pairs: list[MeetingPair]
+
+
+class MarginsAnswer(TypedDict):
+    request_id: str
+    met: bool
+    best: int | None
+    options: MarginOptions
+    plan: PlanAnswer | None
+    tried: list[TriedMargins]
+    advice: list[str]
+    deterministic: bool
+    warnings: list[str]
+
+
+class MarginsProgress(TypedDict):
+    elapsed_ms: float
+    candidate: int
+    candidates: int
+    stage: Literal["plan", "execute"]
+    runs: int
+    bad: int
+
+
+class MarginsProgressEvent(TypedDict):
+    event: Literal["progress"]
+    data: MarginsProgress
+
+
+class FoundMargins(TypedDict):
+    event: Literal["margins"]
+    data: MarginsAnswer
+
+
+MarginsEvent: TypeAlias = MarginsProgressEvent | FoundMargins
 
 
 # ---------------------------------------------------------------- /v1/advance

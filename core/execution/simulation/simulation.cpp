@@ -36,6 +36,34 @@ Position position_of(const std::vector<Leg>& legs, double t) {
 
 }  // namespace
 
+void add_commitments(const std::vector<Robot>& robots, std::vector<RobotPlan>& plans) {
+  std::vector<bool> has_plan(robots.size(), false);
+  for (const RobotPlan& plan : plans) has_plan[plan.robot] = true;
+  for (std::size_t robot = 0; robot < robots.size(); ++robot) {
+    const Robot& owner = robots[robot];
+    if (has_plan[robot] || owner.invalid || owner.committed.empty()) continue;
+    plans.push_back({robot, owner.committed_until(), owner.committed});
+  }
+}
+
+PlannedExecution planned_execution(const std::vector<Robot>& robots, const std::vector<RobotPlan>& plans,
+                                   ExecutionPolicy policy, double max_delay, double wait_before_move,
+                                   std::vector<Dependency> dependencies) {
+  PlannedExecution execution{plans, {}, policy, std::move(dependencies), max_delay};
+  // By a clock, added waits absorb delays; without one, they have to last.
+  const double added_wait = policy == ExecutionPolicy::dependencies ? wait_before_move : 0.0;
+  std::vector<std::size_t> plan_of(robots.size(), 0);
+  for (std::size_t k = 0; k < plans.size(); ++k) {
+    execution.purposes.push_back(wait_purposes(robots[plans[k].robot], plans[k].actions, added_wait));
+    plan_of[plans[k].robot] = k;
+  }
+  for (Dependency& dependency : execution.dependencies) {
+    dependency.gate.robot = plan_of[dependency.gate.robot];
+    dependency.until.robot = plan_of[dependency.until.robot];
+  }
+  return execution;
+}
+
 std::optional<ExecutedCollision> find_wall(const ObstacleField& field, std::size_t robot,
                                            const std::vector<Leg>& legs, double radius, double tolerance,
                                            const StopCondition& stop) {
@@ -240,30 +268,42 @@ std::optional<SimulationTrace> trace_run(const SimulatedFleet& fleet, const Simu
   return trace;
 }
 
+std::size_t run_in_rounds(const Simulator& simulator, std::size_t begin, std::size_t end,
+                          const StopCondition& stop, Executor& executor,
+                          const std::function<void(const Simulator::Run&)>& add,
+                          const std::function<bool()>& go_on) {
+  MemoryAccount* account = MemoryScope::current();
+  std::size_t next = begin;
+  while (next < end && !stop.met()) {
+    if (go_on && !go_on()) break;
+    const std::size_t first = next;
+    const std::size_t count = std::min(end - first, kRunsOfATask * kTasksOfARound);
+    std::vector<std::optional<Simulator::Run>> runs(count);
+    executor.run((count + kRunsOfATask - 1) / kRunsOfATask, [&](std::size_t task) {
+      const MemoryScope scope(account);
+      const std::size_t task_end = std::min(count, (task + 1) * kRunsOfATask);
+      for (std::size_t k = task * kRunsOfATask; k < task_end; ++k) runs[k] = simulator.run(first + k, stop);
+    });
+    for (const auto& run : runs) {
+      // Adding up many collisions takes time as well.
+      const bool ends = next > 0 && stop.met();
+      if (!run || ends) return next;
+      add(*run);
+      ++next;
+    }
+  }
+  return next;
+}
+
 SimulationReport simulate(const SimulatedFleet& fleet, const SimulationSettings& settings,
                           const StopCondition& stop, Executor& executor,
                           const std::function<bool(const SimulationProgress&)>& go_on) {
   Study study(fleet, settings.runs);
   const auto simulator = Simulator::make(fleet, settings, stop);
   if (!simulator) return study.take();
-  MemoryAccount* account = MemoryScope::current();
-  while (study.totals().done < settings.runs && !stop.met()) {
-    if (go_on && !go_on(study.totals())) break;
-    const std::size_t first = study.totals().done;
-    const std::size_t count = std::min(settings.runs - first, kRunsOfATask * kTasksOfARound);
-    std::vector<std::optional<Simulator::Run>> runs(count);
-    executor.run((count + kRunsOfATask - 1) / kRunsOfATask, [&](std::size_t task) {
-      const MemoryScope scope(account);
-      const std::size_t end = std::min(count, (task + 1) * kRunsOfATask);
-      for (std::size_t k = task * kRunsOfATask; k < end; ++k) runs[k] = simulator->run(first + k, stop);
-    });
-    for (const auto& run : runs) {
-      // Adding up many collisions takes time as well.
-      const bool ends = study.totals().done > 0 && stop.met();
-      if (!run || ends) return study.take();
-      study.add(*run);
-    }
-  }
+  run_in_rounds(
+      *simulator, 0, settings.runs, stop, executor, [&](const Simulator::Run& run) { study.add(run); },
+      [&] { return !go_on || go_on(study.totals()); });
   return study.take();
 }
 

@@ -73,6 +73,15 @@ struct SimulatedFleet {
   PlannedExecution execution;
 };
 
+/// Appends plans of the committed actions of robots that have no plan.
+void add_commitments(const std::vector<Robot>& robots, std::vector<RobotPlan>& plans);
+
+/// Returns the execution of plans by a policy. `wait_before_move`: PlanOptions::wait_before_move in seconds.
+/// The robots of the dependencies are indices of robots.
+PlannedExecution planned_execution(const std::vector<Robot>& robots, const std::vector<RobotPlan>& plans,
+                                   ExecutionPolicy policy, double max_delay, double wait_before_move,
+                                   std::vector<Dependency> dependencies);
+
 struct SimulationSettings {
   Disturbance disturbance;
   std::size_t runs = 1;
@@ -106,6 +115,15 @@ class Simulator {
   std::vector<std::vector<Leg>> resting_;  // by robot: the legs of a robot without a plan; empty for others
   std::vector<std::size_t> near_walls_;    // robots that may touch a wall
 };
+
+/// Executes runs `begin`, ..., `end` - 1 in rounds, and calls `add` with each in this order. Ends early when
+/// `stop` is met, or when `go_on`, which is called before each round, returns false. The executor's threads
+/// help; what `add` gets does not depend on their number. Returns the number of the first run that it did not
+/// get.
+std::size_t run_in_rounds(const Simulator& simulator, std::size_t begin, std::size_t end,
+                          const StopCondition& stop, Executor& executor,
+                          const std::function<void(const Simulator::Run&)>& add,
+                          const std::function<bool()>& go_on);
 
 /// One run in detail: the actions that were executed, by plan.
 struct SimulationTrace {

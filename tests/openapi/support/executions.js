@@ -93,7 +93,8 @@ export class Executions {
     return this.#fleets.chain((fleet) => rest.map((further) => ({ ...merged(fleet), ...further })));
   }
 
-  simulations() {
+  /** Disturbances of real robots; some of them disturb nothing. */
+  #disturbances() {
     const spread = (least, most) =>
       fc.tuple(within(least, most), within(least, most)).map(([a, b]) => ({
         min: Math.min(a, b),
@@ -106,6 +107,11 @@ export class Executions {
       turn: spread(0.3, 1.2),
       start_delay: spread(0, 3),
     });
+    return disturbance.map(({ any: wild, ...tame }) => ({ ...wild, ...tame }));
+  }
+
+  simulations() {
+    const disturbance = this.#disturbances();
     const runs = mostly(fc.integer({ min: 1, max: 30 }), fc.integer({ min: 1, max: 100_000 }));
     return this.#fleets.chain((fleet) => {
       const policies = ["open_loop", "absorb_waits", "clock_stop"];
@@ -119,13 +125,29 @@ export class Executions {
           trace: fc.option(fc.nat()),
           seed: fc.nat(),
         })
-        .map(({ disturbance: { any: wild, ...tame }, trace, ...rest }) => ({
+        .map(({ trace, ...rest }) => ({
           ...merged(fleet),
           ...rest,
-          disturbance: { ...wild, ...tame },
           ...(trace === null ? {} : { trace: trace % rest.runs }),
         }));
     });
+  }
+
+  /** Margins of requests, with few runs. */
+  margins() {
+    const rest = fc.record({
+      policy: fc.constantFrom("open_loop", "absorb_waits", "dependencies", "clock_stop"),
+      max_delay: within(0, 3),
+      disturbance: this.#disturbances(),
+      aim: fc.record({ collisions: within(0.2, 0.5), confidence: within(0.5, 0.95) }),
+      runs: fc.integer({ min: 100, max: 400 }),
+      seed: fc.nat(),
+      try: fc.record({
+        interval_margin: fc.constantFrom([0], [0, 1], [0.5, 2]),
+        inflation: fc.constantFrom([0], [0, 0.01]),
+      }),
+    });
+    return fc.record({ request: this.requests(), rest }).map(({ request, rest }) => ({ request, ...rest }));
   }
 
   /** Travel times of a robot from its start to its goals, as far as they are places for its smallest disk. */
