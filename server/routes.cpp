@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "api/json/errors.h"
 #include "api/json/json_writer.h"
@@ -24,10 +25,15 @@ namespace {
 using api::ErrorCode;
 using api::JsonWriter;
 
-constexpr const char* kContentSecurityPolicy =
-    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; connect-src "
-    "'self'; "
-    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+/// Returns the policy of the page. Pages of `frame_ancestors` (origins, or *) may show it in a frame.
+std::string content_security_policy(const std::vector<std::string>& frame_ancestors) {
+  std::string policy =
+      "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; connect-src "
+      "'self'; base-uri 'none'; form-action 'none'; frame-ancestors";
+  if (frame_ancestors.empty()) policy += " 'none'";
+  for (const std::string& origin : frame_ancestors) policy += ' ' + origin;
+  return policy;
+}
 
 api::Reply json_reply(JsonWriter& json) { return {200, api::kJson, json.take()}; }
 
@@ -145,7 +151,8 @@ Handler metrics(const Backend& backend) {
 
 /// Returns a file of the page.
 Handler page(const Backend& backend) {
-  return [&files = backend.files](Exchange& exchange) -> api::Reply {
+  return [&files = backend.files,
+          policy = content_security_policy(backend.settings.frame_ancestors)](Exchange& exchange) -> api::Reply {
     auto file = files.read(exchange.parameter);
     if (!file) {
       return problem_reply(ErrorCode::not_found,
@@ -155,7 +162,7 @@ Handler page(const Backend& backend) {
     }
     exchange.fields.insert(exchange.fields.end(), {{"ETag", file->etag},
                                                    {"Cache-Control", file->cache_control},
-                                                   {"Content-Security-Policy", kContentSecurityPolicy},
+                                                   {"Content-Security-Policy", policy},
                                                    {"Referrer-Policy", "no-referrer"},
                                                    {"Cross-Origin-Opener-Policy", "same-origin"},
                                                    {"Cross-Origin-Resource-Policy", "same-origin"}});

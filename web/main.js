@@ -49,9 +49,11 @@ import { Stage } from "./scene/stage.js";
 import * as service from "./service/client.js";
 import { byId, setText } from "./ui/dom.js";
 import { watchShortcuts } from "./ui/input.js";
+import { Preferences } from "./ui/preferences.js";
 import { Tabs } from "./ui/tabs.js";
 
 const visits = new Visits();
+const preferences = new Preferences();
 const session = new Session(service, requestAnimationFrame.bind(window));
 const colours = new RobotColours();
 const earlier = new EarlierPlans(session);
@@ -59,7 +61,7 @@ const stage = new Stage(session, colours);
 const fleet = new FleetMotion(session, clearanceJob());
 const closest = new ClosestOverlay(session, stage, fleet);
 const tabs = new Tabs(byId("tabs"));
-const transport = new Transport(session);
+const transport = new Transport(session, preferences);
 const show = (part) => {
   if (part === "problem") revealProblem();
   else if (part === "robots") edit.pick("robot");
@@ -95,6 +97,7 @@ const timeline = new TimelineDock(
   transport,
   (over) => closest.peek(over),
   (ids, t) => showMoment(session, stage, ids, t),
+  preferences,
 );
 new Inspector(session, stage, colours, fleet, tabs);
 watchSummary(session);
@@ -110,7 +113,7 @@ watchSharing(
   { animation: () => import("./share/animation.js"), page: () => import("./share/html_page.js") },
   () => fileStem(session.name),
 );
-watchViewMenu(stage);
+watchViewMenu(stage, preferences);
 watchTravelTimes(session, stage, new TravelTimes(session, service, () => performance.now()));
 watchProblem(session, stage, tabs, edit.choice, () => options.load());
 watchLazyTab(tabs, "analyse", async () => {

@@ -188,6 +188,11 @@ class Flags {
         ->delimiter(',')
         ->allow_extra_args(false)
         ->default_str("none");
+    add("frame-ancestors", settings_.frame_ancestors,
+        "Origins whose pages may show the page in a frame, comma-separated or repeated; * for any")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->default_str("none");
     add("trusted-proxy", trusted_proxies_,
         "Addresses (10.0.0.7, 10.0.0.0/8) of proxies whose X-Forwarded-For names the client, comma-separated "
         "or repeated")
@@ -249,6 +254,9 @@ class Flags {
   std::optional<std::string> finish_access() {
     for (const std::string& origin : settings_.cors_origins) {
       if (const auto fault = origin_fault(origin)) return "--cors-origin: " + *fault;
+    }
+    for (const std::string& origin : settings_.frame_ancestors) {
+      if (const auto fault = origin_fault(origin)) return "--frame-ancestors: " + *fault;
     }
     for (const std::string& text : trusted_proxies_) {
       const auto range = AddressRange::from_text(text);

@@ -32,7 +32,14 @@ export function partAt(world, { session, stage, chosen, event }) {
     stage.diskAt(world, (robot) => robot.goal),
     "goal",
   );
+  if (event?.pointerType === "touch" && start && goal) return nearer(world, start, goal);
   return event?.shiftKey ? (goal ?? start) : (start ?? goal);
+}
+
+/** The one of two parts that is nearer to a point: a finger reaches both where they are near to each other. */
+function nearer({ x, y }, one, other) {
+  const [near, far] = [one, other].map(({ place }) => Math.hypot(place.x - x, place.y - y));
+  return near <= far ? one : other;
 }
 
 /** The part for a disk ({robot, place} or null) at one of the poses, or null. */

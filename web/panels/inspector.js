@@ -88,6 +88,15 @@ export class Inspector {
       MARGIN,
       this.#placesOf(robot, track).map((place) => this.#stage.screenOf(place, 0)),
     );
+    this.#bringIntoSight();
+  }
+
+  /** Where the card is below the scene, as on phones, and the scene is seen: scrolls to it. */
+  #bringIntoSight() {
+    const { top, bottom } = this.#stage.canvas.getBoundingClientRect();
+    const isBelow = this.#box.getBoundingClientRect().top >= bottom - 1;
+    const middle = (top + bottom) / 2;
+    if (isBelow && middle > 0 && middle < innerHeight) this.#box.scrollIntoView({ block: "nearest" });
   }
 
   /** What the card should not hide: the robot, its path and goal, and its blockers. */

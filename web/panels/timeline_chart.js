@@ -33,7 +33,7 @@ export class TimelineChart {
   #threshold = null;
   #ids = []; // row by row
   #range = { from: 0, to: 0 };
-  #size = { clientWidth: 0, clientHeight: 0 }; // of the box, kept to avoid a layout in each frame
+  #size = { clientWidth: 0, clientHeight: 0 }; // of the box, kept to avoid a layout in each frame; of the chart, see #zoom
   #scroll = 0;
   #scheduled = false;
   #overlays = [];
@@ -59,11 +59,11 @@ export class TimelineChart {
     this.#box.addEventListener("wheel", (event) => this.#onWheel(event), { passive: false });
     this.#box.addEventListener("keydown", (event) => this.#onKey(event));
     this.#box.addEventListener("dblclick", () => this.#setRange({ from: 0, to: session.player.duration }));
-    watchPinching(this.#box, (x, factor) => this.#zoom(timeAt(this.#layout(), x), factor));
+    watchPinching(this.#box, (x, factor) => this.#zoomTime(this.#timeAt(x), factor));
     watchScrubbing(this.#box, session, {
-      timeAt: (x) => (x < this.#layout().left ? null : timeAt(this.#layout(), x)),
-      robotAt: (y) => this.#ids[rowAt(this.#layout(), y)] ?? null,
-      over: (y) => overStrip(y !== null && y < STRIP),
+      timeAt: (x) => (x < this.#layout().left * this.#zoom ? null : this.#timeAt(x)),
+      robotAt: (y) => this.#ids[rowAt(this.#layout(), y / this.#zoom)] ?? null,
+      over: (y) => overStrip(y !== null && y < STRIP * this.#zoom),
     });
   }
 
@@ -88,7 +88,7 @@ export class TimelineChart {
   /** Where its time is: {left, width} in pixels and {range} in seconds. */
   get span() {
     const { left, width, range } = this.#layout();
-    return { left, width, range };
+    return { left: left * this.#zoom, width: width * this.#zoom, range };
   }
 
   /** `listener` is called when another range of time is shown. */
@@ -124,13 +124,23 @@ export class TimelineChart {
 
   #order() {
     this.#ids = orderRows(this.#session.scene.robots, this.#session.tracks, this.#sortedBy);
-    this.#rows.style.height = `${STRIP + AXIS + this.#ids.length * this.#rowHeight}px`;
+    this.#rows.style.height = `${(STRIP + AXIS + this.#ids.length * this.#rowHeight) * this.#zoom}px`;
+  }
+
+  /** The chart has pixels of its own, which grow with the browser's font size: so many of the page. */
+  get #zoom() {
+    return this.#colours.theme.zoom;
+  }
+
+  /** The time at a distance from the left of the box, pixels of the page. */
+  #timeAt(x) {
+    return timeAt(this.#layout(), x / this.#zoom);
   }
 
   #measure() {
     const { clientWidth, clientHeight, scrollTop } = this.#box;
-    this.#size = { clientWidth, clientHeight };
-    this.#scroll = scrollTop;
+    this.#size = { clientWidth: clientWidth / this.#zoom, clientHeight: clientHeight / this.#zoom };
+    this.#scroll = scrollTop / this.#zoom;
     this.#repaint();
   }
 
@@ -162,12 +172,13 @@ export class TimelineChart {
     this.#scheduled = false;
     const { clientWidth, clientHeight } = this.#size;
     if (clientHeight === 0) return;
-    const ratio = window.devicePixelRatio || 1;
+    const zoom = this.#zoom;
+    const ratio = (window.devicePixelRatio || 1) * zoom;
     const [width, height] = [Math.round(clientWidth * ratio), Math.round(clientHeight * ratio)];
     if (this.#canvas.width !== width || this.#canvas.height !== height) {
       Object.assign(this.#canvas, { width, height });
-      this.#canvas.style.width = `${clientWidth}px`;
-      this.#canvas.style.height = `${clientHeight}px`;
+      this.#canvas.style.width = `${clientWidth * zoom}px`;
+      this.#canvas.style.height = `${clientHeight * zoom}px`;
     }
     const context = contextOf(this.#canvas);
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
@@ -183,7 +194,7 @@ export class TimelineChart {
     });
     const { theme } = this.#colours;
     for (const paint of this.#overlays) paint(context, theme, { layout, ids: this.#ids });
-    this.#playhead.style.height = `${clientHeight}px`;
+    this.#playhead.style.height = `${clientHeight * zoom}px`;
     this.#placePlayhead();
   }
 
@@ -192,7 +203,7 @@ export class TimelineChart {
     const { time, duration } = this.#session.player;
     const x = xOf(layout, time);
     this.#playhead.hidden = duration <= 0 || x < layout.left - 1 || x > layout.left + layout.width + 1;
-    this.#playhead.style.transform = `translateX(${x.toFixed(1)}px)`;
+    this.#playhead.style.transform = `translateX(${(x * this.#zoom).toFixed(1)}px)`;
   }
 
   /** Follows the current time: moves the range when the time leaves it. */
@@ -214,7 +225,7 @@ export class TimelineChart {
   }
 
   #revealRow(row) {
-    if (row >= 0) this.#box.scrollTop = scrollToRow(this.#layout(), row);
+    if (row >= 0) this.#box.scrollTop = scrollToRow(this.#layout(), row) * this.#zoom;
   }
 
   #describe() {
@@ -232,7 +243,7 @@ export class TimelineChart {
     this.#repaint();
   }
 
-  #zoom(anchor, factor) {
+  #zoomTime(anchor, factor) {
     this.#setRange(zoomTime(this.#range, this.#session.player.duration, anchor, factor));
   }
 
@@ -240,7 +251,7 @@ export class TimelineChart {
     if (event.ctrlKey || event.metaKey) {
       event.preventDefault();
       const x = event.clientX - this.#box.getBoundingClientRect().left;
-      this.#zoom(timeAt(this.#layout(), x), wheelFactor(event, WHEEL_GAIN));
+      this.#zoomTime(this.#timeAt(x), wheelFactor(event, WHEEL_GAIN));
       return;
     }
     const travel = wheelTravel(event);
@@ -248,7 +259,7 @@ export class TimelineChart {
     const down = event.shiftKey ? 0 : travel.down;
     if (Math.abs(across) <= Math.abs(down)) return; // the browser scrolls the rows
     event.preventDefault();
-    const shift = (across / this.#layout().width) * (this.#range.to - this.#range.from);
+    const shift = (across / this.span.width) * (this.#range.to - this.#range.from);
     this.#setRange(panTime(this.#range, this.#session.player.duration, shift));
   }
 
@@ -262,9 +273,9 @@ export class TimelineChart {
       ArrowRight: () => this.#step(1),
       Home: () => this.#goTo(0),
       End: () => this.#goTo(player.duration),
-      "+": () => this.#zoom(player.time, KEY_ZOOM),
-      "=": () => this.#zoom(player.time, KEY_ZOOM),
-      "-": () => this.#zoom(player.time, 1 / KEY_ZOOM),
+      "+": () => this.#zoomTime(player.time, KEY_ZOOM),
+      "=": () => this.#zoomTime(player.time, KEY_ZOOM),
+      "-": () => this.#zoomTime(player.time, 1 / KEY_ZOOM),
     };
     if (!(event.key in keys)) return;
     event.preventDefault();

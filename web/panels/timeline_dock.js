@@ -9,8 +9,8 @@ import { TimelineChart } from "./timeline_chart.js";
 import { TimelineOverview } from "./timeline_overview.js";
 
 const EVERY_MS = 100; // between updates of the text while playing
-const HEIGHT = { least: 110, first: 242, step: 24 }; // pixels of the chart
-const MAX_OF_WINDOW = 0.6;
+const HEIGHT = { least: 110, first: 242, step: 24 }; // pixels: how high the body may get; the styles keep the scene larger
+const SMALL = "(max-width: 51.25em), (max-height: 43.75em)"; // windows in which the scene needs the room more
 
 export class TimelineDock {
   #session;
@@ -23,25 +23,35 @@ export class TimelineDock {
   #chart;
   #closest = byId("timeline-closest");
   #least = byId("timeline-least");
-  #height = HEIGHT.first;
+  #scroll = byId("timeline-scroll");
+  #preferences;
+  #small = matchMedia(SMALL);
+  #hadPlan = false; // before the first plan, it is folded
   #updated = -Infinity;
 
-  /** See TimelineChart; `show(ids, t)` shows a moment of two robots. */
-  constructor(session, colours, fleet, transport, overStrip, show) {
+  /** See TimelineChart; `show(ids, t)` shows a moment of two robots; `preferences`: see Preferences. */
+  constructor(session, colours, fleet, transport, overStrip, show, preferences) {
     this.#session = session;
     this.#fleet = fleet;
+    this.#preferences = preferences;
     this.#chart = new TimelineChart(session, colours, fleet, transport, overStrip);
     new TimelineOverview(session, this.#chart, colours);
     this.#compact.addEventListener("click", () => this.#makeCompact());
-    this.#toggle.addEventListener("click", () => this.#fold(!this.#body.hidden));
+    this.#toggle.addEventListener("click", () => {
+      this.#fold(!this.#body.hidden);
+      preferences.set("timelineFolded", this.#body.hidden);
+    });
     this.#sort.addEventListener("change", () => this.#chart.sortBy(this.#sort.value));
     this.#least.addEventListener("click", () => show(fleet.least.ids, fleet.least.t));
     watchGaps(session, fleet, this.#chart, show);
     this.#watchDivider();
-    const narrow = matchMedia("(max-width: 820px)");
-    this.#fold(narrow.matches);
-    narrow.addEventListener("change", () => this.#fold(narrow.matches)); // also of a phone whose width comes late
+    this.#fold(true);
+    this.#small.addEventListener("change", () => this.#hadPlan && this.#foldAsPreferred());
     session.on("answer", () => {
+      if (!this.#hadPlan && session.answer !== null) {
+        this.#hadPlan = true;
+        this.#foldAsPreferred();
+      }
       const known = [...session.tracks.values()].some((track) => delayOf(track) > -Infinity);
       this.#sort.querySelector("[value=delay]").disabled = !known;
       byId("legend-bound").hidden = !known;
@@ -70,6 +80,10 @@ export class TimelineDock {
     this.#chart.compact(isCompact);
   }
 
+  #foldAsPreferred() {
+    this.#fold(this.#preferences.get("timelineFolded", this.#small.matches));
+  }
+
   #fold(folded) {
     this.#body.hidden = this.#divider.hidden = folded;
     this.#toggle.setAttribute("aria-expanded", String(!folded));
@@ -94,27 +108,40 @@ export class TimelineDock {
   }
 
   #watchDivider() {
-    this.#setHeight(this.#height);
+    this.#setHeight(this.#preferences.get("timelineHeight", HEIGHT.first));
     this.#divider.addEventListener("pointerdown", (event) => {
       event.preventDefault();
       this.#divider.setPointerCapture(event.pointerId);
     });
     this.#divider.addEventListener("pointermove", (event) => {
-      if (this.#divider.hasPointerCapture(event.pointerId)) this.#setHeight(this.#height - event.movementY);
+      if (this.#divider.hasPointerCapture(event.pointerId))
+        this.#setHeight(this.#body.offsetHeight - event.movementY);
     });
+    this.#divider.addEventListener("pointerup", () => this.#keepHeight());
     this.#divider.addEventListener("keydown", (event) => {
       const steps = { ArrowUp: HEIGHT.step, ArrowDown: -HEIGHT.step };
       if (!(event.key in steps)) return;
       event.preventDefault();
-      this.#setHeight(this.#height + steps[event.key]);
+      this.#setHeight(this.#body.offsetHeight + steps[event.key]);
+      this.#keepHeight();
     });
+    new ResizeObserver(() => this.#describeHeight()).observe(this.#body);
   }
 
+  /** Lets the body get so high, if its content is. */
   #setHeight(height) {
-    const most = Math.max(HEIGHT.least, Math.round(innerHeight * MAX_OF_WINDOW));
-    this.#height = Math.max(HEIGHT.least, Math.min(most, height));
-    this.#body.style.height = `${this.#height}px`;
-    for (const [name, value] of Object.entries({ now: this.#height, min: HEIGHT.least, max: most })) {
+    this.#body.style.maxHeight = `${Math.max(HEIGHT.least, height)}px`;
+  }
+
+  #keepHeight() {
+    this.#preferences.set("timelineHeight", parseFloat(this.#body.style.maxHeight));
+  }
+
+  #describeHeight() {
+    const now = this.#body.offsetHeight;
+    const content = now + this.#scroll.scrollHeight - this.#scroll.clientHeight;
+    const values = { now, min: Math.min(HEIGHT.least, content), max: content };
+    for (const [name, value] of Object.entries(values)) {
       this.#divider.setAttribute(`aria-value${name}`, String(Math.round(value)));
     }
   }

@@ -108,7 +108,7 @@ export class TimelineOverview {
         y -= tall;
       }
     }
-    context.font = `11px ${theme.font}`;
+    context.font = `${11 * theme.zoom}px ${theme.font}`;
     context.textBaseline = "middle";
     context.fillStyle = theme.muted;
     context.fillText("Whole plan", 8, HEIGHT / 2);

@@ -2,6 +2,7 @@
 
 import { eventTimes, nextEvent } from "../model/playback.js";
 import { byId, setText } from "../ui/dom.js";
+import { NO_PREFERENCES } from "../ui/preferences.js";
 
 const KEY_STEP = 0.25; // seconds
 const LONG_KEY_STEP = 2; // seconds
@@ -20,18 +21,22 @@ export class Transport {
   #next = byId("next-event");
   #events = new Map(); // event times by robot id, null for all robots
   #resume = false; // playing was interrupted by dragging the scrubber
+  #preferences;
 
-  constructor(session) {
+  /** `preferences`: see Preferences. */
+  constructor(session, preferences = NO_PREFERENCES) {
     this.#session = session;
     this.#player = session.player;
+    this.#preferences = preferences;
+    this.#speed.value = String(preferences.get("speed", 1));
+    this.#player.speed = Number(this.#speed.value) || 1;
+    watchHeight(this.#clock.parentElement);
     this.#play.addEventListener("click", () => session.togglePlaying());
     this.#restart.addEventListener("click", () => this.restart());
     this.#previous.addEventListener("click", () => this.step(-1));
     this.#next.addEventListener("click", () => this.step(1));
     this.#loop.addEventListener("click", () => this.toggleLoop());
-    this.#speed.addEventListener("change", () => {
-      this.#player.speed = Number(this.#speed.value);
-    });
+    this.#speed.addEventListener("change", () => this.#takeSpeed());
     this.#scrubber.addEventListener("input", () => session.seek(Number(this.#scrubber.value)));
     this.#scrubber.addEventListener("pointerdown", () => {
       this.#resume = this.#player.playing;
@@ -63,7 +68,12 @@ export class Transport {
   changeSpeed(step) {
     const { options, selectedIndex } = this.#speed;
     this.#speed.selectedIndex = Math.min(options.length - 1, Math.max(0, selectedIndex + step));
+    this.#takeSpeed();
+  }
+
+  #takeSpeed() {
     this.#player.speed = Number(this.#speed.value);
+    this.#preferences.set("speed", this.#player.speed);
   }
 
   focusPlay() {
@@ -92,7 +102,9 @@ export class Transport {
     this.#scrubber.value = String(time);
     this.#scrubber.style.setProperty("--share", `${idle ? 0 : (time / duration) * 100}%`);
     this.#scrubber.setAttribute("aria-valuetext", `${time.toFixed(2)} of ${duration.toFixed(2)} seconds`);
-    setText(this.#clock, `${time.toFixed(2)} / ${duration.toFixed(2)} s`);
+    const end = duration.toFixed(2);
+    setText(this.#clock, `${time.toFixed(2)} / ${end} s`);
+    this.#clock.parentElement.style.setProperty("--digits", String(2 * end.length + 5)); // one width while it plays
   }
 
   #release() {
@@ -118,6 +130,13 @@ export class Transport {
     event.preventDefault();
     this.#session.seek(targets[event.key]);
   }
+}
+
+/** Tells the styles how high the player is, above which cards open. */
+function watchHeight(player) {
+  new ResizeObserver(() => {
+    document.documentElement.style.setProperty("--player-height", `${player.offsetHeight}px`);
+  }).observe(player);
 }
 
 /** The end of the scrubber: not before the duration (seconds), however the browser rounds a value. */

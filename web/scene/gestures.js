@@ -7,13 +7,13 @@ const TOUCH_SLACK = 10; // pixels, likewise: a second finger may follow to pinch
 const WHEEL_GAIN = 0.002; // see wheelFactor
 const PINCH_GAIN = 0.01; // likewise, of two fingers on a touchpad, which come with ctrlKey
 
+const slackOf = ({ pointerType }) => (pointerType === "touch" ? TOUCH_SLACK : CLICK_SLACK);
+
 /**
- * Watches an element. The middle button is always for the camera. `handlers` has
- *
- * - pan(dx, dy), zoom(pixel, factor), hover(pixel or null), click(pixel),
- * - press(pixel, event), for presses that are not for the camera, which returns whether to capture the pointer,
- * - drag(pixel, event), once the captured pointer has moved too far for a click,
- * - release(pixel, event), or abort() when a second finger makes it a pinch.
+ * Watches an element. `handlers` has: pan(dx, dy, whether one finger swipes), zoom(pixel, factor), hover(pixel or null), click(pixel);
+ * and for presses that are not about the camera: press(pixel, event), which returns whether to capture the
+ * pointer, then drag(pixel, event) once it has moved too far for a click, and release(pixel, event), or
+ * abort() when a second finger makes it a pinch. The middle button is always about the camera.
  */
 export function watchGestures(element, handlers) {
   const pressed = new Map(); // pointer id -> last position
@@ -49,11 +49,12 @@ export function watchGestures(element, handlers) {
     travelled += Math.hypot(now.x - before.x, now.y - before.y);
     if (held === event.pointerId) {
       pressed.set(event.pointerId, now);
-      if (travelled > (event.pointerType === "touch" ? TOUCH_SLACK : CLICK_SLACK)) handlers.drag(now, event);
+      if (travelled > slackOf(event)) handlers.drag(now, event);
       return;
     }
     if (pressed.size === 1) {
-      if (travelled > CLICK_SLACK) handlers.pan(now.x - before.x, now.y - before.y);
+      const isSwipe = event.pointerType === "touch";
+      if (travelled > slackOf(event)) handlers.pan(now.x - before.x, now.y - before.y, isSwipe);
     } else if (pressed.size === 2) {
       const [other] = [...pressed].filter(([id]) => id !== event.pointerId).map(([, position]) => position);
       pinch(other, before, now);
@@ -75,7 +76,7 @@ export function watchGestures(element, handlers) {
     if (held === event.pointerId) {
       held = null;
       handlers.release(within(event), event);
-    } else if (known && event.button === 0 && pressed.size === 0 && travelled <= CLICK_SLACK) {
+    } else if (known && event.button === 0 && pressed.size === 0 && travelled <= slackOf(event)) {
       handlers.click(within(event), event);
     }
   });

@@ -214,7 +214,7 @@ function drawName(context, theme, centre, radius, name, tags) {
 }
 
 function tagWidth(context, theme, text) {
-  context.font = `600 12px ${theme.font}`;
+  context.font = `600 ${12 * theme.zoom}px ${theme.font}`;
   return context.measureText(text).width + 12;
 }
 
@@ -222,11 +222,12 @@ function tagWidth(context, theme, text) {
 export function drawTag(context, theme, { x, y }, text) {
   context.save();
   const width = tagWidth(context, theme, text);
+  const height = 18 * theme.zoom;
   context.textAlign = "center";
   context.textBaseline = "middle";
   context.fillStyle = theme.ink;
   context.beginPath();
-  context.roundRect(x - width / 2, y - 9, width, 18, 5);
+  context.roundRect(x - width / 2, y - height / 2, width, height, 5);
   context.fill();
   context.fillStyle = theme.floor;
   context.fillText(text, x, y + 0.5);

@@ -6,6 +6,7 @@ import { Signals } from "../model/signals.js";
 // Degrees in OKLCH, ordered so that neighbours differ most; red is reserved for errors.
 const HUES = [256, 62, 150, 325, 200, 98, 290, 175, 46, 232, 128, 345];
 const GOLDEN_ANGLE = 137.508;
+const USUAL_FONT = 16; // pixels: the browser's font size that texts of canvases are designed for
 const TRAVEL_SHADES = 7; // see shadeOf
 const NAMES = ["void", "floor", "wall", "grid", "edge", "ink", "muted", "danger", "accent"];
 
@@ -30,8 +31,9 @@ export const STATES_IN_WORDS = {
 };
 
 /**
- * The canvas's colours under the present theme. `states`: the colours of robots by state. `travel`: the colours of
- * travel times, from short to long.
+ * The canvas's colours under the present theme; `states` are those of robots by state, `travel` those of travel times,
+ * from short to long;
+ * `zoom` is how much larger texts are than designed.
  */
 export function readTheme() {
   const style = getComputedStyle(document.documentElement);
@@ -44,6 +46,7 @@ export function readTheme() {
     style.getPropertyValue(`--travel-${shade}`).trim(),
   );
   theme.font = getComputedStyle(document.body).fontFamily;
+  theme.zoom = parseFloat(getComputedStyle(document.documentElement).fontSize) / USUAL_FONT;
   return theme;
 }
 

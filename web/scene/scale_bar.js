@@ -5,14 +5,12 @@ import { lengthInWords, scaleBar } from "../model/scale.js";
 const MAX = 110; // pixels
 const MARGIN = 14;
 const TICK = 6;
-const NARROW = 560; // pixels: the lower edge of such a scene has the line about the robot
-const BELOW_BUTTONS = 70;
 
-/** Shows the scale in the lower left corner of the scene, or the upper one if it is narrow. */
+/** Shows the scale in the lower left corner of the scene. */
 export function showScale(stage) {
   stage.addOverlay((context, { scale, viewport, theme }) => {
     const { length, pixels } = scaleBar(scale, MAX);
-    const base = viewport.width < NARROW ? BELOW_BUTTONS : viewport.height - MARGIN;
+    const base = viewport.height - MARGIN;
     context.save();
     context.strokeStyle = theme.ink;
     context.lineWidth = 1.5;
@@ -22,7 +20,7 @@ export function showScale(stage) {
     context.lineTo(MARGIN + pixels, base);
     context.lineTo(MARGIN + pixels, base - TICK);
     context.stroke();
-    context.font = `600 11.5px ${theme.font}`;
+    context.font = `600 ${11.5 * theme.zoom}px ${theme.font}`;
     context.textBaseline = "alphabetic";
     context.textAlign = "left";
     context.lineWidth = 3;

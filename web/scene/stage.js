@@ -10,12 +10,13 @@ import { fit, keepInSight, panBy, scaleLimits, toScreen, toWorld, zoomAt } from 
 
 const MARGIN = 24; // pixels around a fitted map
 const HEADROOM = 64; // pixels above it, where the view's buttons are
+const FOOTROOM = 28; // pixels below it, where the scale is
 const REST_MS = 120; // without a movement of the camera
 const KEY_PAN = 60; // pixels
 const KEY_ZOOM = 1.4;
 const LEGIBLE = 10; // pixels: the least radius of a robot in the middle
 const FRAMED = 40; // pixels: the largest radius of the smallest disk that is framed with others
-const REACH = 6; // pixels: the least radius for picking a robot
+const REACH = { mouse: 6, touch: 24 }; // pixels: the least radius for picking a robot
 const NOWHERE = { left: 0, bottom: 0, right: 1, top: 1 };
 
 /**
@@ -48,6 +49,8 @@ export class Stage {
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   #rest; // set while the camera is being moved
   #signals = new Signals();
+  #pointer = "mouse"; // or "touch": what was used last
+  #beside = 0; // pixels at the right that the view's buttons take
 
   /** `colours`: see RobotColours. */
   constructor(session, colours) {
@@ -106,6 +109,7 @@ export class Stage {
   #showTool() {
     this.#canvas.setAttribute("role", this.#tool.key ? "application" : "img"); // screen readers pass its keys
     this.#canvas.style.cursor = "";
+    this.#offerSwipes();
     this.redraw();
   }
 
@@ -144,7 +148,8 @@ export class Stage {
 
   #fit() {
     this.#fitted = true;
-    if (this.#viewport.width > 0) this.#camera = fit(this.#bounds(), this.#viewport, this.#insets());
+    if (this.#viewport.width > 0) this.#camera = this.#cameraFor(this.#bounds());
+    this.#offerSwipes();
     this.redraw();
   }
 
@@ -183,7 +188,7 @@ export class Stage {
       bottom: Math.min(...ys) - room,
       top: Math.max(...ys) + room,
     };
-    const camera = fit(bounds, this.#viewport, this.#insets());
+    const camera = this.#cameraFor(bounds);
     const { min, max } = this.#scaleLimits();
     const scale = Math.max(min, Math.min(camera.scale, max, FRAMED / least));
     const middle = { x: (bounds.left + bounds.right) / 2, y: (bounds.bottom + bounds.top) / 2 };
@@ -245,7 +250,7 @@ export class Stage {
 
   /** The distance from the centre of a disk of this radius within which a pointer picks it, metres. */
   reach(radius) {
-    return Math.max(radius, REACH / this.#camera.scale);
+    return Math.max(radius, REACH[this.#pointer] / this.#camera.scale);
   }
 
   /** Paints with the next frame. */
@@ -283,15 +288,19 @@ export class Stage {
   cameraGestures(canvas, robotAt) {
     const world = (pixel) => toWorld(this.#camera, this.#viewport, pixel);
     return {
-      pan: (dx, dy) => this.#pan(dx, dy),
+      pan: (dx, dy, isSwipe) => (isSwipe && this.#seesAll) || this.#pan(dx, dy),
       zoom: (pixel, factor) => this.#zoom(pixel, factor),
       hover: (pixel) => {
+        this.#pointer = "mouse"; // fingers do not hover
         const id = pixel && robotAt(world(pixel));
         canvas.classList.toggle("on-robot", id !== null);
         this.#session.hover(id);
       },
       click: (pixel, event) => this.#click(robotAt(world(pixel)), event),
-      press: () => false,
+      press: (_, event) => {
+        this.#pointer = pointerOf(event);
+        return false;
+      },
     };
   }
 
@@ -306,6 +315,7 @@ export class Stage {
         ofCamera.hover(pixel);
       },
       press: (pixel, event) => {
+        this.#pointer = pointerOf(event);
         if (event.pointerType !== "mouse") this.#signals.emit("point", world(pixel));
         const tools = [this.#tool, this.#baseTool];
         const taker = tools.find((tool) => tool.press?.(world(pixel), event) ?? false);
@@ -334,6 +344,7 @@ export class Stage {
     const box = this.#canvas.getBoundingClientRect();
     const before = toWorld(this.#camera, this.#viewport, this.#middle());
     this.#viewport = { width: box.width, height: box.height };
+    this.#beside = byId("fit").parentElement.offsetWidth + 2 * MARGIN;
     if (this.#fitted) this.#fit();
     else this.#move({ ...this.#camera, ...before });
     this.paint();
@@ -343,9 +354,28 @@ export class Stage {
     return { x: this.#viewport.width / 2, y: this.#viewport.height / 2 };
   }
 
-  #insets() {
+  /** The camera that shows all of the bounds, below the view's buttons or beside them, where they are larger. */
+  #cameraFor(bounds) {
     const margin = Math.min(MARGIN, this.#viewport.width * 0.03);
-    return { left: margin, right: margin, bottom: margin, top: HEADROOM };
+    const around = { left: margin, right: margin, bottom: FOOTROOM, top: margin };
+    const below = fit(bounds, this.#viewport, { ...around, top: HEADROOM });
+    const beside = fit(bounds, this.#viewport, { ...around, right: this.#beside });
+    return beside.scale > below.scale ? beside : below;
+  }
+
+  /** Whether the whole map is in sight: there is nothing to swipe to. */
+  get #seesAll() {
+    const { left, right, bottom, top } = this.#bounds();
+    const [a, b] = [
+      { x: left, y: top },
+      { x: right, y: bottom },
+    ].map((corner) => toScreen(this.#camera, this.#viewport, corner));
+    return a.x >= 0 && a.y >= 0 && b.x <= this.#viewport.width && b.y <= this.#viewport.height;
+  }
+
+  /** Lets a finger scroll the page where the scene has no use for that. */
+  #offerSwipes() {
+    this.#canvas.style.touchAction = this.#seesAll && !this.#tool.press ? "pan-y" : "none";
   }
 
   #bounds() {
@@ -355,6 +385,7 @@ export class Stage {
   #move(camera) {
     this.#fitted = false;
     this.#camera = keepInSight(camera, this.#bounds());
+    this.#offerSwipes();
     clearTimeout(this.#rest);
     this.#rest = setTimeout(() => {
       this.#rest = undefined;
@@ -374,7 +405,7 @@ export class Stage {
 
   #scaleLimits() {
     const cell = this.#session.scene.grid?.resolution ?? 1;
-    return scaleLimits(this.#bounds(), this.#viewport, this.#insets(), cell);
+    return scaleLimits(this.#cameraFor(this.#bounds()).scale, cell);
   }
 
   #onKey(event) {
@@ -389,3 +420,5 @@ export class Stage {
     this.#pan(step[0] * KEY_PAN, step[1] * KEY_PAN);
   }
 }
+
+const pointerOf = ({ pointerType }) => (pointerType === "touch" ? "touch" : "mouse");

@@ -36,9 +36,8 @@ export function fit(bounds, viewport, insets) {
   };
 }
 
-/** The smallest and largest sensible scale for a map of these bounds and cell size. */
-export function scaleLimits(bounds, viewport, insets, resolution) {
-  const fitted = fit(bounds, viewport, insets).scale;
+/** The smallest and largest sensible scale for a map that is `fitted` at a scale, with cells of this size. */
+export function scaleLimits(fitted, resolution) {
   return { min: fitted * SMALLEST_SHARE, max: Math.max(LARGEST_CELL / resolution, fitted) };
 }
 

@@ -61,7 +61,7 @@ function drawArrow(context, colour, centre, heading, length) {
 /** Writes the label if it is not wider than the zone. */
 function drawLabel(context, theme, { x, y }, label, width) {
   context.save();
-  context.font = `600 ${LABEL_PIXELS}px ${theme.font}`;
+  context.font = `600 ${LABEL_PIXELS * theme.zoom}px ${theme.font}`;
   if (context.measureText(label).width <= width) {
     context.textAlign = "center";
     context.textBaseline = "middle";

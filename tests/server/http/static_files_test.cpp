@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/server/support/test_server.h"
 #include "tests/support/temporary_folder.h"
@@ -65,6 +69,21 @@ TEST_F(Page, IsServedWithItsTypesAndStrictFields) {
     EXPECT_EQ(result->get_header_value("Cross-Origin-Opener-Policy"), "same-origin");
     EXPECT_EQ(result->get_header_value("Cross-Origin-Resource-Policy"), "same-origin");
   }
+}
+
+TEST_F(Page, IsShownInFramesOfTheListedOriginsOnly) {
+  const auto frame_ancestors = [&](std::vector<std::string> origins) {
+    auto with_origins = settings();
+    with_origins.frame_ancestors = std::move(origins);
+    const TestServer server(with_origins);
+    const auto result = server.client().Get("/");
+    const std::string policy = result ? result->get_header_value("Content-Security-Policy") : "";
+    return policy.substr(std::min(policy.size(), policy.find("frame-ancestors")));
+  };
+  EXPECT_EQ(frame_ancestors({}), "frame-ancestors 'none'");
+  EXPECT_EQ(frame_ancestors({"https://a.example", "http://b.example:3000"}),
+            "frame-ancestors https://a.example http://b.example:3000");
+  EXPECT_EQ(frame_ancestors({"*"}), "frame-ancestors *");
 }
 
 TEST_F(Page, IsNotSentAgainWhenTheEtagMatches) {

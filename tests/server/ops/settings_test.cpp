@@ -45,6 +45,7 @@ TEST(Settings, HaveTheirDefaults) {
   EXPECT_EQ(settings.admin_port, std::nullopt);
   EXPECT_FALSE(settings.token);
   EXPECT_TRUE(settings.cors_origins.empty());
+  EXPECT_TRUE(settings.frame_ancestors.empty());
   EXPECT_EQ(settings.drain_delay, std::chrono::milliseconds(0));
 }
 
@@ -87,6 +88,8 @@ TEST(Settings, AcceptOriginsRepeatedOrCommaSeparated) {
   const std::vector<std::string> both{"https://a.example", "http://b.example:3000"};
   EXPECT_EQ(settings_of({"--cors-origin", "https://a.example,http://b.example:3000"}).cors_origins, both);
   EXPECT_EQ(settings_of({"--cors-origin", both[0], "--cors-origin", both[1]}).cors_origins, both);
+  EXPECT_EQ(settings_of({"--frame-ancestors", "https://a.example,http://b.example:3000"}).frame_ancestors,
+            both);
   EXPECT_EQ(settings_of({"--trusted-proxy", "10.0.0.7,2001:db8::/32"}).trusted_proxies.size(), 2u);
   const Environment origins("FLEETPLAN_CORS_ORIGIN", "https://a.example,http://b.example:3000");
   EXPECT_EQ(settings_of({}).cors_origins, both);
@@ -143,6 +146,7 @@ TEST(Settings, RejectBadValuesAndNameTheFlag) {
                                "--admin-port=off",
                                "--auth-token-file=/no/such/file",
                                "--cors-origin=a.example",
+                               "--frame-ancestors=https://a.example; script-src *",
                                "--trusted-proxy=10.0.0.0/40",
                                "--drain-delay-ms=-1",
                                "--config=/no/such/file"}) {

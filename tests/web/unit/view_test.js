@@ -63,8 +63,8 @@ test("zooming stops at the limits", () => {
 
 test("the limits always admit the fitted scale", () => {
   const bounds = { left: 0, bottom: 0, right: 0.5, top: 0.5 };
-  const { min, max } = scaleLimits(bounds, VIEWPORT, INSETS, 0.5);
   const { scale } = fit(bounds, VIEWPORT, INSETS);
+  const { min, max } = scaleLimits(scale, 0.5);
   assert.ok(min < scale && scale <= max);
 });
 
