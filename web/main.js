@@ -155,6 +155,7 @@ watchShortcuts({
 document.addEventListener("visibilitychange", () => session.player.skip());
 
 offerHook(session, stage, fleet);
-setup.begin(service, address, keeper, visits.isFirst ? FIRST_EXAMPLE : null).then(() => {
+visits.readUnkept = () => ({ request: address.unkept, plan: keeper.unkept });
+setup.begin(service, address, keeper, visits.unkept, visits.isFirst ? FIRST_EXAMPLE : null).then(() => {
   if (visits.isFirst) welcome(session, () => planButton.press());
 });

@@ -3,6 +3,7 @@
 // address identifies it only here (#kept=…).
 
 import { FileError } from "../model/problem.js";
+import { amendEntry, entryState, pushEntry } from "./entry.js";
 import { freshId } from "./kept.js";
 
 const REST_MS = 400; // without a further edit
@@ -10,6 +11,7 @@ const MAX_TO_COMPRESS = 2 ** 20; // characters: longer requests are not compress
 const PREFIX = "#r=";
 const KEPT = "#kept=";
 const LONGEST_TEXT = 8 * 2 ** 20; // bytes when inflated
+const MAX_ENTRIES = 20; // of the browser's history whose requests are remembered
 
 export class Address {
   #session;
@@ -22,29 +24,49 @@ export class Address {
   #keptId = null; // of this page's request
   #isLarge = false; // the request is too large for a link
   #isKept = true; // the address leads to the request as it is now
+  #left = new Map(); // entries of the history that another request has replaced: key -> what was open, see Session.open
+  /** @type {any} */
+  #shown = null; // what is open: {opened, answer}
+  #isGoingBack = false; // or forth
+  /** @type {string | null} */
+  #followed = null; // the fragment of the entry that it went back to
 
   /** `opening`: see Opening; `kept`: see keptRequests. */
   constructor(session, opening, kept) {
     this.#session = session;
     this.#opening = opening;
     this.#kept = kept;
-    session.on("request", ({ opened }) => this.#showSoon(opened));
+    session.on("request", (detail) => this.#onRequest(detail));
+    session.on("answer", () => this.#remember());
     addEventListener("beforeunload", (event) => {
       if (this.#isLarge && !this.#isKept) event.preventDefault(); // the browser asks whether to leave
     });
     // The event's address: by now, the page may have replaced it by the address of its request.
     addEventListener("hashchange", ({ newURL }) => this.#follow(new URL(newURL).hash));
+    addEventListener("popstate", ({ state }) => this.#goBack(state?.key));
+  }
+
+  /** The request as JSON if the address does not lead to it yet, or null. */
+  get unkept() {
+    return this.#isKept ? null : this.#session.text;
   }
 
   /**
-   * Opens what the address identifies. If it identifies nothing, opens the `preferred` example of `examples`
-   * ([{name}]), or the first one. Resolves to whether the address identified it.
+   * Opens what the address identifies, or else the `preferred` one of the examples ([{name}]), or the first one; resolves
+   * to whether it is what the address identifies. `unkept`: the text of the request to which the address would lead if
+   * the page had not ended before, or null.
    * @param {string | null} preferred
+   * @param {string | null} unkept
    */
-  async begin(examples, preferred = null) {
+  async begin(examples, preferred = null, unkept = null) {
     this.#examples = examples;
     if (this.#opening.begun) return false;
+    const { name } = entryState();
+    if (unkept !== null && (await this.#opening.text(name ?? "request", unkept))) return true;
     let problem = null;
+    if (location.hash !== "" && !isOwn(location.hash) && !this.#named(location.hash)) {
+      problem = unknownFragment(location.hash);
+    }
     if (isOwn(location.hash)) {
       if (await this.#openOwn(location.hash)) return true;
       problem = this.#session.problem;
@@ -68,14 +90,53 @@ export class Address {
   }
 
   #follow(fragment) {
+    if (fragment === this.#followed) return;
     const named = this.#named(fragment);
     if (isOwn(fragment)) this.#openOwn(fragment);
     else if (named && named.name !== this.#session.example) this.#opening.example(named.name);
+    else if (!named && fragment !== "") this.#session.setProblem(unknownFragment(fragment));
+  }
+
+  #remember() {
+    const { name, example, request, answer, outdated } = this.#session;
+    if (request === null) return;
+    this.#shown = { opened: { name, example, request }, answer: outdated === null ? answer : null };
+  }
+
+  #onRequest({ opened, restored = false }) {
+    const isFirst = this.#shown === null;
+    if (!this.#isGoingBack) this.#followed = null;
+    if (opened && !restored && !isFirst && !this.#isGoingBack) this.#leave();
+    this.#remember();
+    amendEntry({ name: this.#session.name });
+    this.#showSoon(opened);
+  }
+
+  /** Begins another entry of the history; the present one will open what was open until now. */
+  #leave() {
+    const key = entryState().key ?? freshId();
+    this.#left.delete(key);
+    this.#left.set(key, this.#shown);
+    if (this.#left.size > MAX_ENTRIES) this.#left.delete(this.#left.keys().next().value);
+    amendEntry({ key });
+    pushEntry({ key: freshId() }, location.hash);
+  }
+
+  /** Opens what was open at an entry of the history. */
+  #goBack(key) {
+    const found = this.#left.get(key);
+    if (found === undefined) return; // it was open before a reload: its address leads to it
+    const { opened, answer } = found;
+    this.#isGoingBack = true;
+    this.#followed = location.hash;
+    this.#session.open({ ...opened, text: JSON.stringify(opened.request) }, answer);
+    this.#isGoingBack = false;
+    this.#session.announce(`${opened.name} is open again.`);
   }
 
   /** Opens the request that a fragment holds, or that is kept under its id; resolves to whether it is open. */
   #openOwn(fragment) {
-    if (isLinkState(fragment)) return this.#opening.link(fragment);
+    if (isLinkState(fragment)) return this.#opening.link(fragment, entryState().name);
     const id = fragment.slice(KEPT.length);
     this.#keptId = id;
     return this.#opening.kept(() => this.#kept.get(id));
@@ -120,8 +181,21 @@ export class Address {
   }
 }
 
-function put(fragment) {
-  history.replaceState(history.state, "", `${location.pathname}${location.search}${fragment}`);
+const put = (fragment) => amendEntry({}, fragment);
+
+const unknownFragment = (fragment) => ({
+  title: "Nothing is known by this address",
+  detail: `“${shortened(decoded(fragment))}” is neither an example nor a request. Another request is open instead.`,
+});
+
+const shortened = (text) => (text.length > 40 ? `${text.slice(0, 38)}…` : text);
+
+function decoded(fragment) {
+  try {
+    return decodeURIComponent(fragment);
+  } catch {
+    return fragment; // a stray per cent sign
+  }
 }
 
 export const LONGEST_LINK = 8000; // characters of the fragment; longer addresses are often truncated

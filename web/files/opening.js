@@ -59,10 +59,10 @@ export class Opening {
     return this.#choose(() => this.#reader.text(name, text));
   }
 
-  /** Opens the request that the fragment of an address holds. */
-  link(fragment) {
+  /** Opens the request that the fragment of an address holds, under a name. */
+  link(fragment, name = "linked request") {
     return this.#choose(async () => {
-      return this.#reader.text("linked request", JSON.stringify(await readLinkState(fragment)));
+      return this.#reader.text(name, JSON.stringify(await readLinkState(fragment)));
     });
   }
 

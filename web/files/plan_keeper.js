@@ -3,9 +3,10 @@
 // follow.
 
 import { latestOnly } from "../model/latest.js";
+import { amendEntry, entryState } from "./entry.js";
 import { freshId } from "./kept.js";
 
-const REST_MS = 400; // without another plan
+const LEAST_MS = 400; // between plans that are kept
 
 export class PlanKeeper {
   #session;
@@ -14,8 +15,10 @@ export class PlanKeeper {
   #id = freshId();
   #later = latestOnly();
   /** @type {string | null} */
-  #before = history.state?.plan ?? null; // of the page before its reload, until it is restored
+  #before = entryState().plan ?? null; // of the page before its reload, until it is restored
   #answer = null; // that is kept, or will be
+  #isKept = true;
+  #last = -Infinity; // when a plan was kept, of performance.now()
 
   /** `opening`: see Opening; `kept`: see keptPlans. */
   constructor(session, opening, kept) {
@@ -26,11 +29,24 @@ export class PlanKeeper {
     session.on("answer planning", () => this.#keepSoon());
   }
 
-  /** Opens the plan of the page before its reload, if there is one and the request is that one (`isSame`). */
-  async restore(isSame) {
+  /** The texts {request, answer} of the plan that is shown, if it is not kept yet, or null. */
+  get unkept() {
+    return this.#isKept || this.#session.answer === null ? null : this.#texts;
+  }
+
+  get #texts() {
+    const { planning, text, plannedText, answer } = this.#session;
+    return { request: planning === null ? plannedText : text, answer: JSON.stringify(answer) };
+  }
+
+  /**
+   * Opens the plan of the page before its reload, if there is one and the request is that one (`isSame`): the `unkept` one,
+   * or else the one that is kept.
+   */
+  async restore(isSame, unkept = null) {
     const id = this.#before;
-    if (id === null) return;
-    if (isSame) await this.#opening.keptPlan(() => this.#kept.get(id));
+    if (id === null && unkept === null) return;
+    if (isSame) await this.#opening.keptPlan(async () => unkept ?? this.#kept.get(id));
     this.#before = null;
     if (this.#session.answer === null) this.#forget();
   }
@@ -38,26 +54,31 @@ export class PlanKeeper {
   #forget() {
     this.#answer = null;
     this.#later(0, async () => {});
-    if (this.#before === null && history.state?.plan !== undefined) history.replaceState(null, "");
+    this.#isKept = true;
+    if (this.#before === null && entryState().plan !== undefined) amendEntry({ plan: undefined });
   }
 
   #keepSoon() {
     const { answer, planning } = this.#session;
-    if (planning !== null || answer === this.#answer) return; // better plans may follow
+    if (answer === this.#answer) return;
     if (answer === null) {
-      this.#forget();
+      if (planning === null) this.#forget(); // else a plan may follow, until which the one before is kept
       return;
     }
     this.#answer = answer;
-    this.#later(REST_MS, (signal) => this.#keep(answer, signal));
+    this.#isKept = false;
+    this.#later(Math.max(0, this.#last + LEAST_MS - performance.now()), (signal) => this.#keep(signal));
   }
 
-  async #keep(answer, signal) {
-    const texts = { request: this.#session.plannedText, answer: JSON.stringify(answer) };
+  async #keep(signal) {
+    const texts = this.#texts;
+    this.#last = performance.now();
     const isKept = await this.#kept.put(this.#id, texts).then(
       () => true,
       () => false, // such as in a private window
     );
-    if (isKept && !signal.aborted) history.replaceState({ plan: this.#id }, "");
+    if (signal.aborted) return;
+    this.#isKept = true; // or cannot be
+    if (isKept) amendEntry({ plan: this.#id });
   }
 }

@@ -39,19 +39,19 @@ export class Setup {
   }
 
   /**
-   * Lists the examples and opens what the address identifies, with its plan, or else the `preferred` example. See Address
-   * and PlanKeeper.
+   * Lists the examples and opens what the address identifies, with its plan, or else the `preferred` example. See Address,
+   * PlanKeeper and, for `unkept`, Visits.
    * @param {string | null} preferred
    */
-  async begin(service, address, keeper, preferred = null) {
+  async begin(service, address, keeper, unkept, preferred = null) {
     const examples = service.listExamples().then((listed) => this.#showExamples(listed));
     const limits = service.fetchLimits().then((known) => this.#session.setLimits(known));
     const loaded = Promise.allSettled([examples, limits]);
     await examples.catch(() => this.#showExamples([]));
-    await keeper.restore(await address.begin(this.#examples, preferred));
+    await keeper.restore(await address.begin(this.#examples, preferred, unkept.request), unkept.plan);
     for (const each of await loaded) {
       if (each.status === "rejected")
-        this.#session.fail(each.reason, () => this.begin(service, address, keeper, preferred));
+        this.#session.fail(each.reason, () => this.begin(service, address, keeper, unkept, preferred));
     }
   }
 

@@ -4,28 +4,45 @@
 // After a reload, the page opens what was open in this tab. Chromium gives the page the address at the begin of the
 // reload. If the page has replaced the state of its entry in the history since then, Chromium loses this state.
 
-const KEY = "fleetplan-visit"; // of both storages: {fragment, plan}, see Address and PlanKeeper
+import { amendEntry, entryState } from "./entry.js";
+
+const KEY = "fleetplan-visit"; // of both storages: {fragment, plan, name}, see entry.js, and {unkept}, see Visits
 
 export class Visits {
   /** Whether there was none before, as far as the browser knows, and no address says what to open. */
   isFirst = false;
+
+  /**
+   * What the last visit did not keep in time: {request: its text, plan: the texts {request, answer} of the plan}, or null in
+   * place of what it kept.
+   */
+  unkept = /** @type {{request: any, plan: any}} */ ({ request: null, plan: null });
+
+  /** Returns what is not kept yet, see `unkept`. */
+  readUnkept = /** @type {() => {request: any, plan: any}} */ (() => ({ request: null, plan: null }));
 
   /** Puts what was open into the address and into the browser's history, where Address and PlanKeeper find it. */
   constructor() {
     const here = isReload() ? read(() => sessionStorage) : null;
     forget(() => sessionStorage); // it is of the reload only
     if (here !== null) {
-      show(here);
+      this.#show(here);
     } else if (location.hash === "" && history.state === null) {
       const last = read(() => localStorage);
       this.isFirst = last === null;
-      if (last?.fragment) show(last);
+      if (last?.fragment || last?.unkept.request) this.#show(last);
     }
-    write(() => localStorage);
+    write(() => localStorage, this.unkept);
     addEventListener("pagehide", () => {
-      write(() => localStorage);
-      write(() => sessionStorage);
+      const unkept = this.readUnkept();
+      write(() => localStorage, unkept);
+      write(() => sessionStorage, unkept);
     });
+  }
+
+  #show({ fragment, plan, name, unkept }) {
+    amendEntry({ plan, name }, fragment);
+    this.unkept = unkept;
   }
 }
 
@@ -34,27 +51,30 @@ function isReload() {
   return /** @type {PerformanceNavigationTiming | undefined} */ (entry)?.type === "reload";
 }
 
-function show({ fragment, plan }) {
-  history.replaceState(plan && { plan }, "", `${location.pathname}${location.search}${fragment}`);
-}
-
 // A storage throws, also when it is only named, where the browser keeps nothing, such as in a private window.
 
 function read(storage) {
   try {
-    const { fragment, plan } = JSON.parse(storage().getItem(KEY) ?? "null");
-    return { fragment: fragment ?? "", plan: plan ?? null };
+    const { fragment = "", plan, name, unkept } = JSON.parse(storage().getItem(KEY) ?? "null");
+    return { fragment, plan, name, unkept: { request: null, plan: null, ...unkept } };
   } catch {
     return null; // there is none, or the browser keeps nothing
   }
 }
 
-function write(storage) {
+function write(storage, unkept) {
+  const { plan, name } = entryState();
+  const visit = { fragment: location.hash, plan, name };
+  // What is not kept may have no room.
+  if (!put(storage, { ...visit, unkept })) put(storage, visit);
+}
+
+function put(storage, visit) {
   try {
-    const visit = { fragment: location.hash, plan: history.state?.plan ?? null };
     storage().setItem(KEY, JSON.stringify(visit));
+    return true;
   } catch {
-    // The browser keeps nothing: each visit is like the first one.
+    return false; // where the browser keeps nothing, each visit is like the first one
   }
 }
 

@@ -2,12 +2,11 @@
 // independent of each other. No DOM; the service and the screen's frames are passed in.
 //
 // Features listen with on(names, listener):
-//
-//   request   another request or an edit of it: `request`, `scene` and `tracks` are new. Detail: {opened}. It is true if
-//             a request was opened or restored by undo or redo, and false if this one was edited. {proceeded: true} if
-//             the request belongs to a later moment of the same fleet
-//   answer    another answer, or none, or the part of it that still holds: `answer`, `outdated`, `tracks` and the player
-//             are new. Follows every "request", too
+//   request   another request or an edit of it: `request`, `scene` and `tracks` are new. Detail: {opened},
+//             whether another one was opened or restored by undo or redo (true), or this one was edited (false); and
+//             {proceeded: true} if it is that of a later moment of the same fleet; {restored: true} if undo or redo opened it
+//   answer    another answer, or none, or what still holds of it: `answer`, `outdated`, `tracks` and the player are
+//             new; follows every "request", too
 //   incumbent a better plan is shown while planning goes on, after "answer". Detail: whether it is the first one
 //   planning  planning started, progressed or ended: `planning`
 //   problem   a fault to show, or none: `problem`
@@ -142,23 +141,23 @@ export class Session extends Marking {
   }
 
   #stepped(reopened, word) {
-    this.#requestChanged(reopened);
+    this.#requestChanged(reopened, { restored: true });
     this.announce(reopened ? `${word}: ${this.name} is open again.` : `${word}.`);
   }
 
   /** Goes on with the request of a later moment of the running fleet and its plan; what is selected stays. */
   proceed(request, answer) {
     this.#documents.proceed(request, answer);
-    this.#requestChanged(false, true);
+    this.#requestChanged(false, { proceeded: true });
   }
 
-  #requestChanged(opened, proceeded = false) {
+  #requestChanged(opened, detail = {}) {
     this.#turn += 1;
     this.stopPlanning();
     if (opened) this.clearMarks();
     this.#shown.showRequest(this.request);
     this.#showAnswer(this.#documents.present.answer);
-    this.emit("request", proceeded ? { opened, proceeded } : { opened });
+    this.emit("request", { opened, ...detail });
     if (opened) this.setProblem(null); // after an edit it stays until the next check, see checks.js
     this.#answerChanged();
   }
