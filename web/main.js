@@ -120,6 +120,9 @@ watchLazyTab(tabs, "analyse", async () => {
   const { fillAnalysis } = await import("./analysis/analysis_panel.js");
   return (panel) => fillAnalysis(panel, { session, stage, timeline, fleet, service, earlier });
 });
+service.watchLate((isLate) => {
+  setText(byId("late"), isLate ? "The service has not answered for 10 s. The page still waits for it." : "");
+});
 session.on("announcement", (text) => setText(byId("announcer"), text));
 
 watchShortcuts({

@@ -87,6 +87,8 @@ export class Toolbox {
     };
     byId("tools").replaceChildren(...Object.keys(this.#tools).map((name) => this.#button(name)));
     tabs.onChange(() => this.#refresh());
+    session.on("planning", () => session.planning !== null && this.#choose("select"));
+    session.on("request", ({ opened }) => opened && this.#choose("select"));
     this.#refresh();
   }
 

@@ -16,6 +16,7 @@ export class PlacingPanel {
   /** @type {any} */
   #tool = null; // the tool of the Edit tab, null on another tab
   #robotTool;
+  #refusal = ""; // why the last click placed nothing
   #checked = /** @type {any} */ ({ scene: null, wrong: [] }); // see misplaced
 
   /** `robotTool`: see RobotTool; `pick(name)` selects a tool. */
@@ -32,6 +33,10 @@ export class PlacingPanel {
     this.#place.addEventListener("click", () => pick("robot"));
     this.#plan.addEventListener("click", () => byId("plan").click());
     session.on("request marks planning", () => this.#refresh());
+    robotTool.onRefusal((text) => {
+      this.#refusal = text;
+      this.#refresh();
+    });
   }
 
   /** Shows what is of use with a tool; null: nothing. */
@@ -51,8 +56,10 @@ export class PlacingPanel {
     this.#plan.disabled = planning !== null || robots.length === 0;
     setText(byId("placing-text"), places ? this.#nextClick(robots) : this.#tool.help);
     const wrong = places ? this.#misplacedIn(scene) : [];
-    setText(byId("placing-fit"), places && robots.length > 0 ? inWords(robots, wrong) : "");
-    byId("placing-fit").classList.toggle("wrong", wrong.length > 0);
+    const fit = places && robots.length > 0 ? inWords(robots, wrong) : "";
+    const refusal = places ? this.#refusal : "";
+    setText(byId("placing-fit"), refusal || fit);
+    byId("placing-fit").classList.toggle("wrong", refusal !== "" || wrong.length > 0);
     this.#radius.show(request?.robot_defaults?.radius, {
       placeholder: String(numbersOfNext(request).radius),
     });

@@ -26,6 +26,8 @@ export class RobotTool {
   #pressed = null; // {start: null if it does not fit, gesture, index: of the robot, null until it is added} while pressed
   /** @type {string | null} */
   #added = null; // the id of the robot that was added last, by a click
+  #isRefused = false; // the last click placed nothing
+  #tell = /** @type {(text: string) => void} */ (() => {});
 
   /** `choice`: see RobotChoice; `actions`: see RobotActions. */
   constructor(session, stage, choice, actions) {
@@ -42,7 +44,13 @@ export class RobotTool {
     return this.#added !== null && robot?.id === this.#added && robot.goal === null ? robot : null;
   }
 
+  /** `tell(text)` shows why the last click placed nothing; "": it did. */
+  onRefusal(tell) {
+    this.#tell = tell;
+  }
+
   press(world, event) {
+    this.#refuse("");
     gestures += 1;
     const gesture = `add ${gestures}`;
     const { awaiting } = this;
@@ -66,10 +74,10 @@ export class RobotTool {
     const { start, index } = this.#pressed;
     if (start === null) {
       const { radius } = numbersOfNext(this.#session.request);
-      this.#session.announce(`A robot with a radius of ${metres(radius)} does not fit here.`);
+      this.#refuse(`A robot with a radius of ${metres(radius)} does not fit here.`);
     } else {
       if (index === null) this.#add();
-      this.#announce();
+      if (!this.#isRefused) this.#announce();
     }
     this.abort();
   }
@@ -136,8 +144,21 @@ export class RobotTool {
     const { start, gesture } = this.#pressed;
     const goal = this.#goalAt(world, event);
     const radius = this.#choice.robot?.radius ?? 0;
-    if (goal === null || Math.hypot(goal.x - start.x, goal.y - start.y) <= radius) return;
+    if (goal === null) {
+      const { grid } = this.#session.scene;
+      const isOutside = grid !== null && !isWithin(grid.bounds, world);
+      this.#refuse(isOutside ? "The goal would be outside the map." : "The robot does not fit there.");
+      return;
+    }
+    this.#refuse("");
+    if (Math.hypot(goal.x - start.x, goal.y - start.y) <= radius) return;
     this.#actions.setPose("goal", goal, gesture);
+  }
+
+  #refuse(text) {
+    this.#isRefused = text !== "";
+    this.#tell(text);
+    if (text !== "") this.#session.announce(text);
   }
 
   #announce() {
@@ -165,3 +186,6 @@ export class RobotTool {
     return grid && !altKey ? placeWithRoom(grid, world, radius, others) : snapPoint(grid, world, altKey);
   }
 }
+
+const isWithin = ({ left, right, bottom, top }, { x, y }) =>
+  x >= left && x <= right && y >= bottom && y <= top;

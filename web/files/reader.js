@@ -15,6 +15,7 @@ import { ScenarioDialog } from "./scenario_dialog.js";
 
 const SPEEDS = { linear_speed: 1, angular_speed: 3.1416 }; // m/s, rad/s
 const CELL_SHARE = 0.4; // default radius on MovingAI maps, of a cell's side
+const DEEPEST = 100; // nesting of JSON, until the service's limit is known
 const INDOOR_RADIUS = 0.2; // metres, default radius on ROS maps
 
 export class Reader {
@@ -78,10 +79,14 @@ export class Reader {
 
   /** One document, or two of which one is the request and the other its answer: [{name, text}]. */
   #documents(documents) {
+    const { max_body = Infinity, max_depth = DEEPEST } = this.#session.limits;
     const read = documents.map(({ name, text }) => ({
       name,
       text,
-      ...about({ name }, () => readJson(text)),
+      ...about({ name }, () => {
+        checkExtent(text, max_body, max_depth);
+        return readJson(text);
+      }),
     }));
     const whole = read.find(({ request }) => request !== null);
     const alone = read.find(({ request }) => request === null);
@@ -151,6 +156,30 @@ function opened(name, request, /** @type {Answer | null} */ answer = null, text 
 
 function withoutRobots(map, radius) {
   return { map, robot_defaults: { radius, ...SPEEDS }, robots: [] };
+}
+
+/** Throws FileError for a text that the service would refuse by its size or depth, before work is done for it. */
+function checkExtent(text, most, deepest) {
+  if (text.length > most)
+    throw new FileError(
+      `It has ${megabytes(text.length)}, and the service accepts at most ${megabytes(most)}.`,
+    );
+  const depth = depthOf(text, deepest);
+  if (depth > deepest)
+    throw new FileError(`Its lists and objects are nested more than ${deepest} deep, the service's limit.`);
+}
+
+/** How deep a JSON text is nested, or more than `most` once that is certain. */
+function depthOf(text, most) {
+  let [depth, deepest, isText] = [0, 0, false];
+  for (let at = 0; at < text.length && deepest <= most; at += 1) {
+    const letter = text[at];
+    if (isText && letter === "\\") at += 1;
+    else if (letter === '"') isText = !isText;
+    else if (!isText && (letter === "[" || letter === "{")) deepest = Math.max(deepest, (depth += 1));
+    else if (!isText && (letter === "]" || letter === "}")) depth -= 1;
+  }
+  return deepest;
 }
 
 function readJson(text) {

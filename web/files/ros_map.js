@@ -39,8 +39,9 @@ export function readRosYaml(text) {
   const yaw = origin[2] ?? 0;
   const quarterTurns = quarterTurnsOf(yaw);
   if (quarterTurns === null)
-    warnings.push(
-      `ROS turns the map by ${yaw} rad (the yaw of its origin), which is no quarter turn: it is ignored here.`,
+    throw new FileError(
+      `the map is turned by ${yaw} rad (the yaw of its origin), which is no quarter turn. Turn the image, ` +
+        "or set the yaw to 0 and give all poses in the frame of the image.",
     );
   const mode = given.mode ?? "trinary";
   if (!MODES.includes(mode)) throw new FileError(`mode is ${mode}; map_server knows ${MODES.join(", ")}.`);
@@ -48,7 +49,7 @@ export function readRosYaml(text) {
     image,
     resolution,
     origin: { x: origin[0], y: origin[1] },
-    quarterTurns: quarterTurns ?? 0,
+    quarterTurns,
     negate: given.negate === true || given.negate === 1,
     occupiedThresh: thresholdIn(given, "occupied_thresh", OCCUPIED_THRESH, warnings),
     freeThresh: thresholdIn(given, "free_thresh", FREE_THRESH, warnings),

@@ -16,10 +16,16 @@ export function watchSaving(session, address, needsToken) {
   const note = byId("save-note");
   const stem = () => fileStem(session.name);
   const menu = byId("save-menu");
-  let token = false;
+  /** @type {Promise<boolean> | null} */
+  let token = null; // whether the service asks for one
   makeClosable(menu);
-  // Known before anything is copied, which has to happen at the click.
-  const learn = async () => (token = await needsToken().catch(() => token));
+  const learn = () => {
+    token ??= needsToken().catch(() => {
+      token = null; // the next one asks again
+      return false;
+    });
+    return token;
+  };
   menu.addEventListener("toggle", () => menu.open && learn());
   byId("welcome").addEventListener("pointerenter", learn);
   byId("welcome").addEventListener("focusin", learn);
@@ -34,8 +40,8 @@ export function watchSaving(session, address, needsToken) {
   });
   const copies = (buttons, write) => {
     for (const button of buttons) {
-      button.addEventListener("click", () =>
-        copyFrom(button, write(session, document.baseURI, token), session),
+      button.addEventListener("click", async () =>
+        copyFrom(button, write(session, document.baseURI, await learn()), session),
       );
     }
   };

@@ -90,12 +90,11 @@ export function placementErrors(request, violations, pose) {
   );
   return standing.map(({ kind, robots, distance, required }) => {
     const placed = robots.map((id) => indices.get(id)).sort((a, b) => a - b);
-    const room = `${inMetres(distance)} of the required ${inMetres(required)}`;
-    const others = robots.filter((id) => indices.get(id) !== placed.at(-1));
+    const missing = inMetres(required - distance);
     const detail =
       kind === "robot_collision"
-        ? `The ${pose} overlaps that of ${others.join(" and ")}: ${room}, between the centres.`
-        : `The ${pose} does not fit: ${room}, from its centre to a wall or the edge of the map.`;
+        ? `${robots.join(" and ")} overlap at their ${pose}s, by ${missing}.`
+        : `${robots[0]} does not fit at its ${pose}: it needs ${missing} more than is free.`;
     const index = placed.at(-1);
     const place = pose === "goal" ? lastGoalPlace(robotsOf(request)[index]) : pose;
     return { pointer: `/robots/${index}/${place}`, detail };

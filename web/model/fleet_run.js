@@ -95,6 +95,7 @@ export class FleetRun {
     session.on("time playback", () => this.#watch());
     session.on("playback", () => this.#onPlayback());
     session.on("request", ({ proceeded }) => proceeded || this.stop());
+    this.onChange(() => session.hold(this.running ? this.#holds.keys() : []));
   }
 
   /** `listener` is called when it starts, stops, ends a round, or holds other robots. */

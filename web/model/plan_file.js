@@ -126,7 +126,8 @@ export const isAction = (value) => Object.entries(OF_ACTIONS).every(([key, check
 
 /** Throws FileError unless an answer's members can be shown. */
 export function checkAnswer(answer) {
-  checkMembers(answer, Object.keys(answer), OF_ANSWERS, "");
+  const known = Object.keys(answer).filter((key) => Object.hasOwn(OF_ANSWERS, key));
+  checkMembers(answer, known, OF_ANSWERS, "");
   for (const [index, entry] of (answer.unplanned ?? []).entries()) {
     const place = `unplanned[${index}].`;
     checkMembers(entry, Object.keys(OF_UNPLANNED), OF_UNPLANNED, place);

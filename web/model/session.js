@@ -45,6 +45,7 @@ export class Session extends Marking {
   check = null; // of the plan, by the service
   /** @type {Limits} */
   limits = {}; // see GET /v1/limits; empty until known
+  #held = new Set(); // ids of robots that somebody holds, see FleetRun
 
   /** `service`: see service/client.js. `nextFrame` calls back with the wall clock in milliseconds. */
   constructor(service, nextFrame) {
@@ -300,7 +301,13 @@ export class Session extends Marking {
   }
 
   stateOf(id, time = this.player.time) {
-    return this.#shown.stateOf(id, time);
+    return this.#held.has(id) ? "held" : this.#shown.stateOf(id, time);
+  }
+
+  /** Takes note of the robots, by their ids, that somebody holds now. */
+  hold(ids) {
+    this.#held = new Set(ids);
+    this.emit("time");
   }
 
   // Time

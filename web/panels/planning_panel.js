@@ -7,6 +7,8 @@ import { summarize } from "./summary.js";
 
 const CLOCK_MS = 100;
 const QUICK_MS = 400; // planning that ends sooner shows no progress, which would only move what is below it
+const LATE = 10; // seconds after the time budget
+const LATE_WORDS = "The service is late: its time budget is over. You can wait, or cancel.";
 const WIDTH = 320;
 const HEIGHT = 44;
 const EDGE = 3;
@@ -104,6 +106,7 @@ export class PlanningStatus {
       const passed = Math.max(0, performance.now() - this.#since) / 1000;
       setText(this.#elapsed, `Planning ${passed.toFixed(1)}${limit} s`);
       this.#bar.value = passed;
+      if (budget !== null && passed > budget + LATE) setText(this.#soFar, LATE_WORDS);
     };
     show();
     this.#timer = setInterval(show, CLOCK_MS);

@@ -5,8 +5,8 @@ import { nameOf } from "../model/edit_request.js";
 import { diskOf, groupFaults, placeOfFault } from "../model/faults.js";
 import { mapRowOf, robotIndexOf } from "../model/problem.js";
 import { markRow, markWrong } from "../scene/marks.js";
-import { byId, element } from "../ui/dom.js";
-import { fieldOf, showFieldErrors } from "../ui/field_errors.js";
+import { byId, element, keepInPlace } from "../ui/dom.js";
+import { fieldOf, showFieldErrors, shownIn } from "../ui/field_errors.js";
 import { count } from "../ui/format.js";
 
 const FORMS = ["panel-edit", "panel-options"];
@@ -20,15 +20,6 @@ const MAX_ERRORS = 100; // to list
 export function watchProblem(session, stage, tabs, choice, loadOptions) {
   const errors = () => session.problem?.errors ?? [];
   const forms = FORMS.map((id) => document.getElementById(id));
-
-  const refresh = () => {
-    for (const form of forms) showFieldErrors(form, errors());
-  };
-  session.on("problem marks", refresh); // marks: the form may show another robot now
-  session.on("problem", () => {
-    stage.redraw();
-    if (errors().some(isAboutOptions)) loadOptions().then(refresh);
-  });
 
   const markErrors = (context, view) => {
     for (const { pointer = "" } of errors()) {
@@ -53,7 +44,19 @@ export function watchProblem(session, stage, tabs, choice, loadOptions) {
   const leads = (pointer) =>
     LEADING.test(pointer) || placeOfFault(session.request, session.scene, pointer) !== null;
   const listed = (problem) => errorList(problem, session.request, { lead, leads });
-  session.on("problem", () => showProblem(session.problem, listed));
+
+  // What is shown at its field is not shown once more in the card.
+  const refresh = () =>
+    keepInPlace(document.activeElement, () => {
+      for (const form of forms) showFieldErrors(form, errors());
+      showProblem(session.problem, (error) => !forms.some((form) => shownIn(form, error)), listed);
+    });
+  session.on("problem marks", refresh); // marks: the form may show another robot now
+  tabs.onChange(refresh);
+  session.on("problem", () => {
+    stage.redraw();
+    if (errors().some(isAboutOptions)) loadOptions().then(refresh);
+  });
 }
 
 const isAboutOptions = ({ pointer = "" }) => pointer.startsWith("/options");
@@ -67,22 +70,29 @@ function focusOn(field, tabs) {
   control.focus();
 }
 
-/** Scrolls the problem into view on pages longer than the window, as on a phone. */
+/** Scrolls the problem, or the field that has it, into view on pages longer than the window, as on a phone. */
 export function revealProblem() {
-  byId("problem").scrollIntoView({ block: "center" });
+  const box = byId("problem");
+  const place = box.hidden ? document.querySelector(".field-error") : box;
+  place?.scrollIntoView({ block: "center" });
 }
 
-function showProblem(problem, listed) {
+/** Shows a problem, with those of its errors that are `open`: not shown elsewhere. */
+function showProblem(whole, open, listed) {
   const box = byId("problem");
-  box.hidden = problem === null;
+  const errors = whole?.errors ?? [];
+  const problem = whole && { ...whole, errors: errors.filter(open) };
+  const isElsewhere = errors.length > 0 && problem.errors.length === 0;
+  const unfolded = box.querySelector("details")?.open ?? false;
+  box.hidden = problem === null || isElsewhere;
   box.replaceChildren();
-  if (problem === null) return;
+  if (box.hidden) return;
   box.append(element("h2", { textContent: problem.title }));
   if (problem.detail) box.append(element("p", { textContent: problem.detail }));
   if (problem.retry_after) {
     box.append(element("p", { textContent: `Try again in ${count(problem.retry_after, "second")}.` }));
   }
-  if (problem.errors?.length > 0) box.append(listed(problem));
+  if (problem.errors.length > 0) box.append(listed(problem), pointersOf(problem.errors, unfolded));
   if (problem.again) box.append(againButton(problem.again));
   if (problem.request_id) {
     box.append(element("p", { class: "request-id", textContent: `Request ${problem.request_id}` }));
@@ -109,14 +119,26 @@ function errorList({ errors, errors_total = errors.length }, request, { lead, le
   return list;
 }
 
+/** The places in the request, for programmers. */
+function pointersOf(errors, open) {
+  const pointers = [
+    ...new Set(errors.slice(0, MAX_ERRORS).map(({ pointer }) => pointer || "(whole request)")),
+  ];
+  const codes = pointers.map((pointer) => element("li", {}, element("code", { textContent: pointer })));
+  const summary = element("summary", { textContent: "Places in the request" });
+  return element(
+    "details",
+    { class: "pointers", open },
+    summary,
+    element("ul", { class: "plain" }, ...codes),
+  );
+}
+
 /** A place with an error: a button that leads there, or plain if `lead` is null. */
 function placeButton(pointer, request, lead) {
   const properties = { class: "error", "data-error": pointer };
   const place = element(lead ? "button" : "div", lead ? { ...properties, type: "button" } : properties);
-  place.append(
-    element("span", { class: "error-place" }, placeInWords(pointer, request)),
-    element("code", { textContent: pointer || "(whole request)" }),
-  );
+  place.append(element("span", { class: "error-place" }, placeInWords(pointer, request)));
   if (lead) place.addEventListener("click", () => lead(pointer));
   return place;
 }

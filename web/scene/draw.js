@@ -31,6 +31,7 @@ const OUTDATED = { width: 1.25, alpha: 0.5, dashes: [3, 4] };
 const FAINT = { width: 1.25, alpha: 0.34 };
 const MANY = 100; // robots: paths of more are fainter, or they would cover the map, and wait until the camera rests
 const FAINTEST = 0.05;
+const MAX_NAMED = 40; // marked robots whose names are shown: more would cover the map
 const PART = 20; // robots, or poses of which they may choose, that are painted on the backdrop in one go
 
 export class Painter {
@@ -233,11 +234,12 @@ export class Painter {
       if (!view.marked.has(robots[at].id)) this.#paintRobot(context, view, at, null);
     }
     for (let at = 0; at < robots.length; at += 1) {
-      if (view.marked.has(robots[at].id)) this.#paintRobot(context, view, at, robots[at].id);
+      if (!view.marked.has(robots[at].id)) continue;
+      this.#paintRobot(context, view, at, view.marked.size <= MAX_NAMED ? robots[at].id : "");
     }
   }
 
-  /** `name`: the text beside the robot at this index of the scene, or null. */
+  /** `name`: the text beside the robot at this index of the scene, "" for a ring alone, or null. */
   #paintRobot(context, { viewport, time, scale, screen, tags }, at, name) {
     const robot = this.#scene.robots[at];
     const track = this.#tracks.get(robot.id);

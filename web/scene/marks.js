@@ -18,7 +18,7 @@ export function drawRobot(
   if (name !== null) drawHalo(context, centre, shown, theme);
   if (unplanned) drawUnplanned(context, theme, centre, shown, colour);
   else drawDisk(context, theme, { centre, theta, radius: shown, colour, label, state });
-  if (name !== null) drawName(context, theme, centre, shown, name, tags);
+  if (name) drawName(context, theme, centre, shown, name, tags);
 }
 
 /** The start of a robot: a faint ring. */

@@ -25,6 +25,7 @@ export class Ruler {
     this.#stage = stage;
     this.#button.addEventListener("click", () => this.toggle());
     session.on("request", ({ opened }) => opened && this.#set(false));
+    session.on("planning", () => session.planning !== null && this.#set(false));
   }
 
   toggle() {

@@ -1,18 +1,28 @@
 // The service's HTTP interface. Addresses are relative to the page, so that it works below any path.
 
-import { planFile } from "../model/plan_file.js";
+import { checkAnswer, planFile } from "../model/plan_file.js";
 import { ConnectionLost, ProblemError } from "../model/problem.js";
 
 const PAUSES_MS = [200, 800]; // before the second and the third attempt
 const BUSY = 503;
 const MAX_ATTEMPTS = 6; // at a service that is busy
 const LONGEST_WAIT = 60; // seconds for which a busy service is waited for
+const LATE_MS = 10_000; // without an answer
 const LARGE = 500_000; // characters
+const OF_PLAN = ["status", "plans", "unplanned", "flowtime", "makespan", "warnings"];
 const END_OF_EVENT = /\r?\n\r?\n/;
+
+let late = 0; // answers
+let tellLate = /** @type {(isLate: boolean) => void} */ (() => {});
+
+/** `listener(isLate)` is called when the service has not answered for long, and when it has. */
+export function watchLate(listener) {
+  tellLate = listener;
+}
 
 /** The examples: [{name, title, description, robots, columns, rows}]. */
 export async function listExamples() {
-  return parseAnswer(await ask("v1/examples")).examples;
+  return parseAnswer(await ask("v1/examples"), ["examples"]).examples;
 }
 
 /** The text of an example's request. */
@@ -43,14 +53,15 @@ export async function fetchOpenApi() {
  * incumbent(text), an answer's text. While the service is busy, it gets waiting(seconds).
  */
 export async function plan(requestText, signal, listener) {
-  return stream("v1/plan", requestText, signal, listener, "plan");
+  return stream("v1/plan", requestText, signal, listener, { last: "plan", wanted: OF_PLAN });
 }
 
 /**
  * Simulates a plan, see POST /v1/simulate; `progress({runs, done})` is called meanwhile. Resolves to the figures.
  */
 export async function simulate(text, progress) {
-  return stream("v1/simulate", text, undefined, { progress }, "simulation");
+  const wanted = ["runs", "collision_share", "robots", "pairs", "first_collisions", "planned", "warnings"];
+  return stream("v1/simulate", text, undefined, { progress }, { last: "simulation", wanted });
 }
 
 /**
@@ -59,12 +70,12 @@ export async function simulate(text, progress) {
  */
 export async function dependencies(request, answer) {
   if (Array.isArray(answer.dependencies)) return answer;
-  return post("v1/dependencies", JSON.stringify(planFile(request, answer)));
+  return post("v1/dependencies", JSON.stringify(planFile(request, answer)), undefined, ["dependencies"]);
 }
 
 /** The request of a later moment, see POST /v1/advance. */
 export async function advance(text) {
-  return post("v1/advance", text);
+  return post("v1/advance", text, undefined, ["map", "robots"]);
 }
 
 /** How long a lone robot takes between poses, see POST /v1/matrix; `signal` may abort it. */
@@ -73,7 +84,7 @@ export async function matrix(text, signal) {
 }
 
 /** Posts a text; resolves to the answer, or to the data of the event `last` if the service streams events. */
-async function stream(address, body, signal, listener, last) {
+async function stream(address, body, signal, listener, { last, wanted }) {
   const headers = {
     "Content-Type": "application/json",
     Accept: "text/event-stream, application/json;q=0.9",
@@ -82,14 +93,16 @@ async function stream(address, body, signal, listener, last) {
     address,
     { method: "POST", headers, body: bodyOf(body), signal },
     listener.waiting,
+    Infinity, // who waits for it sees a clock
   );
   const streams = response.headers.get("Content-Type")?.startsWith("text/event-stream");
-  return parseAnswer(await unlessCut(streams ? lastEvent(response, listener, last) : response.text()));
+  const text = await unlessCut(streams ? lastEvent(response, listener, last) : response.text());
+  return parseAnswer(text, wanted);
 }
 
 /** The service's check of a plan file's text: {valid, violations, min_clearance}; `signal` may abort it. */
 export async function validate(text, signal = undefined) {
-  return post("v1/validate", text, signal);
+  return post("v1/validate", text, signal, ["valid", "violations"]);
 }
 
 /**
@@ -99,10 +112,10 @@ export async function validate(text, signal = undefined) {
 const bodyOf = (text) => (text.length > LARGE ? new Blob([text]) : text);
 
 /** The answer to a text. */
-async function post(address, body, signal = undefined) {
+async function post(address, body, signal = undefined, wanted = /** @type {string[]} */ ([])) {
   const headers = { "Content-Type": "application/json" };
   const response = await send(address, { method: "POST", headers, body: bodyOf(body), signal });
-  return parseAnswer(await unlessCut(response.text()));
+  return parseAnswer(await unlessCut(response.text()), wanted);
 }
 
 /** The text of the event `last`, which ends a stream. Reads to the end, so that the connection can be reused. */
@@ -110,7 +123,10 @@ async function lastEvent(response, listener, last) {
   let answer = null;
   for await (const { event, data } of readEvents(response.body)) {
     if (event === "progress") listener.progress(JSON.parse(data));
-    if (event === "incumbent") listener.incumbent(data);
+    if (event === "incumbent") {
+      parseAnswer(data, OF_PLAN);
+      listener.incumbent(data);
+    }
     if (event === last) answer = data;
     if (event === "problem") throw new ProblemError(readProblem(response, data));
   }
@@ -133,17 +149,39 @@ async function ask(address) {
 
 /**
  * The response; rejects with ProblemError if it is an error. A busy service is asked again when it says; `onWait(seconds)`
- * is called before.
+ * is called before. After `patience` milliseconds the answer is late.
  */
-async function send(address, init = {}, /** @type {(seconds: number) => void} */ onWait = () => {}) {
+async function send(
+  address,
+  init = {},
+  /** @type {(seconds: number) => void} */ onWait = () => {},
+  patience = LATE_MS,
+) {
   for (let attempt = 1; ; attempt += 1) {
-    const response = await unlessCut(fetch(address, init));
+    const response = await unlessCut(tellingLate(fetch(address, init), patience));
     if (response.ok) return response;
     const problem = readProblem(response, await unlessCut(response.text()));
     const isBusy = response.status === BUSY && problem.retry_after <= LONGEST_WAIT;
     if (!isBusy || attempt === MAX_ATTEMPTS) throw new ProblemError(problem);
     onWait(problem.retry_after);
     await pause(problem.retry_after * 1000, init.signal);
+  }
+}
+
+/** What is awaited, which is called late after so many milliseconds. */
+async function tellingLate(awaited, patience) {
+  let isLate = false;
+  const count = (change) => {
+    isLate = change > 0;
+    late += change;
+    tellLate(late > 0);
+  };
+  const timer = patience < Infinity ? setTimeout(() => count(1), patience) : undefined;
+  try {
+    return await awaited;
+  } finally {
+    clearTimeout(timer);
+    if (isLate) count(-1);
   }
 }
 
@@ -181,14 +219,32 @@ function readProblem(response, text) {
   };
 }
 
-function parseAnswer(text) {
+/** The answer, which must have the `wanted` members. */
+function parseAnswer(text, wanted = /** @type {string[]} */ ([])) {
   const answer = parseObject(text);
+  const missing = wanted.find((member) => answer !== null && !(member in answer));
+  if (missing !== undefined) throw otherVersion(`Its answer has no “${missing}”.`);
+  if (answer !== null && wanted === OF_PLAN) checkPlans(answer);
   if (answer !== null) return answer;
   throw new ProblemError({
     title: "Unexpected response",
     detail: "The response is not JSON. It may come from a proxy.",
   });
 }
+
+function checkPlans(answer) {
+  try {
+    checkAnswer(answer);
+  } catch (error) {
+    throw otherVersion(/** @type {Error} */ (error).message);
+  }
+}
+
+const otherVersion = (what) =>
+  new ProblemError({
+    title: "The service is of another version than this page",
+    detail: `${what} Reload the page. If that does not help, ask who runs the service.`,
+  });
 
 function parseObject(text) {
   try {

@@ -57,6 +57,19 @@ export function scrollWithin(box, part, covered = 0) {
   else if (inner.bottom > outer.bottom) box.scrollTop += inner.bottom - outer.bottom;
 }
 
+/** Makes a change to the page; an element with the focus stays where it is in the window, or at least in sight. */
+export function keepInPlace(focused, change) {
+  const topOf = () => focused.getBoundingClientRect().top;
+  const isOnPage = focused !== null && focused !== document.body;
+  const before = isOnPage ? topOf() : 0;
+  change();
+  if (!isOnPage || !focused.isConnected || topOf() === before) return;
+  const box = focused.closest(".side-body");
+  if (box !== null) box.scrollTop += topOf() - before;
+  if (topOf() !== before) scrollBy(0, topOf() - before);
+  if (topOf() !== before) focused.scrollIntoView({ block: "nearest" });
+}
+
 /** Removes rows {element} from the end of a list, or makes them, until there are so many. */
 export function setCount(list, rows, count, make) {
   while (rows.length > count) rows.pop().element.remove();

@@ -23,6 +23,14 @@ export function showFieldErrors(root, errors) {
   }
 }
 
+/** Whether people see this error at a field within `root`. */
+export function shownIn(root, { pointer, detail }) {
+  const field = fieldOf(root, pointer);
+  if (field === null || !covers(field.dataset.pointer, pointer)) return false;
+  const message = document.getElementById(field.getAttribute("aria-describedby") ?? "");
+  return message !== null && message.checkVisibility() && message.textContent.includes(detail);
+}
+
 /** The field within `root` for a pointer, or null. */
 export function fieldOf(root, pointer) {
   const fields = [...root.querySelectorAll("[data-pointer]")];

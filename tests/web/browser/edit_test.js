@@ -377,7 +377,7 @@ test("a fault is shown at the robot's field and in the scene until it is repaire
       ]);
       await page.waitForSelector("#robot-start[aria-invalid=true]");
       const message = await page.innerText("#robot-start .field-error");
-      assert.match(message, /start does not fit: 0 m of the required 0\.3 m/);
+      assert.match(message, /does not fit at its start: it needs 0\.3 m more than is free/);
       assert.ok((await marks({ x: 4.5, y: 0.5 })) > 20);
       await drag(page, [
         { x: 4.5, y: 0.5 },

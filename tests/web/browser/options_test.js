@@ -117,7 +117,10 @@ test("a fault of an edit is shown at its field until it is repaired", async () =
       await page.waitForSelector("#option-inflation[aria-invalid=true]");
       const message = await page.getAttribute("#option-inflation", "aria-describedby");
       assert.match(await page.innerText(`#${message}`), /inflation|0|negative/i);
-      assert.match(await page.innerText("#problem"), /\/options\/inflation/);
+      assert.equal(await page.isVisible("#problem"), false, "it is shown once");
+      await page.click("#tab-plan");
+      assert.match(await page.textContent("#problem"), /\/options\/inflation/);
+      await page.click("#tab-options");
       await page.fill("#option-inflation", "0.1");
       await page.waitForSelector("#option-inflation:not([aria-invalid])");
       assert.equal(await page.isVisible("#problem"), false);

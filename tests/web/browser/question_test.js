@@ -253,7 +253,7 @@ test("rows scroll, and the selected one is scrolled into view", async () => {
 
 test("the dock folds, and its divider is moved by keyboard and by dragging", async () => {
   await onPage(async (page) => {
-    await planned(page, "crossing");
+    await planned(page, "warehouse");
     const height = async () => (await page.locator("#timeline-body").boundingBox()).height;
     const first = await height();
     await page.focus("#timeline-divider");
@@ -462,6 +462,7 @@ test("violations are listed, and pressing one shows its moment and robots", asyn
 test("the timeline folds when the window becomes narrow, and unfolds when it becomes wide", async () => {
   await onPage(async (page) => {
     const body = page.locator("#timeline-body");
+    await planned(page, "crossing");
     assert.equal(await body.isVisible(), true);
     await page.setViewportSize({ width: 390, height: 844 });
     await body.waitFor({ state: "hidden" });

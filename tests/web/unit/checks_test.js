@@ -95,7 +95,7 @@ test("a robot in a wall is reported at its start or goal", () => {
   const violation = { kind: "obstacle_collision", robots: ["c"], distance: 0.1, required: 0.3 };
   const [error] = placementErrors(THREE_ROBOTS, [violation], "start");
   assert.equal(error.pointer, "/robots/2/start");
-  assert.match(error.detail, /start does not fit: 0.1 m of the required 0.3 m/);
+  assert.equal(error.detail, "c does not fit at its start: it needs 0.2 m more than is free.");
   assert.equal(placementErrors(THREE_ROBOTS, [violation], "goal")[0].pointer, "/robots/2/goal");
 });
 
@@ -119,7 +119,7 @@ test("overlapping robots are reported at the later one", () => {
   const violation = { kind: "robot_collision", robots: ["c", "a"], distance: 0.2, required: 0.6 };
   const [error] = placementErrors(THREE_ROBOTS, [violation], "goal");
   assert.equal(error.pointer, "/robots/2/goal");
-  assert.match(error.detail, /goal overlaps that of a: 0.2 m of the required 0.6 m/);
+  assert.equal(error.detail, "c and a overlap at their goals, by 0.4 m.");
 });
 
 const ROBOT = { id: "a", radius: 0.3, start: { x: 0.5, y: 0.5 }, goal: { x: 2.5, y: 0.5 } };

@@ -60,6 +60,13 @@ test("a map.yaml is read, with trinary as the default mode", () => {
   assert.equal(readRosYaml(`${YAML}mode: scale\n`).mode, "scale");
 });
 
+test("a map that is turned by no whole number of quarters is refused", () => {
+  for (const yaw of [0.3, -0.01, 1.5]) {
+    const read = () => readRosYaml(YAML.replace("0.0]", `${yaw}]`));
+    assert.throws(read, { message: new RegExp(`turned by ${yaw} rad .* no quarter turn.*set the yaw to 0`) });
+  }
+});
+
 test("a map that is turned by quarters is turned, about its lower-left corner", () => {
   const of = (yaw) => {
     const described = readRosYaml(YAML.replace("0.0]", `${yaw}]`).replace("0.050000", "1"));
