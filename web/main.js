@@ -21,6 +21,7 @@ import { Session } from "./model/session.js";
 import { TravelTimes } from "./model/travel_times.js";
 import { watchCheck } from "./panels/check_card.js";
 import { watchChosen } from "./panels/comparison_card.js";
+import { embed, showMomentOfPlan } from "./panels/embedded.js";
 import { Inspector } from "./panels/inspector.js";
 import { watchLazyTab } from "./panels/lazy_tab.js";
 import { OptionsPanel } from "./panels/options_panel.js";
@@ -52,7 +53,8 @@ import { watchShortcuts } from "./ui/input.js";
 import { Preferences } from "./ui/preferences.js";
 import { Tabs } from "./ui/tabs.js";
 
-const visits = new Visits();
+const isEmbedded = new URLSearchParams(location.search).has("embed");
+const visits = new Visits(isEmbedded);
 const preferences = new Preferences();
 const session = new Session(service, requestAnimationFrame.bind(window));
 const colours = new RobotColours();
@@ -82,7 +84,7 @@ const options = new OptionsPanel(session, tabs, service.fetchOpenApi);
 const filter = new RobotFilter(session);
 new RobotList(session, colours, filter);
 const finder = new RobotFinder(session, stage, tabs, filter);
-watchChosen(session, fleet);
+watchChosen(session, stage, fleet);
 stage.setBaseTool(new BoxSelection(session, stage));
 showScale(stage);
 showLattice(session, stage);
@@ -100,7 +102,7 @@ const timeline = new TimelineDock(
   preferences,
 );
 new Inspector(session, stage, colours, fleet, tabs);
-watchSummary(session);
+watchSummary(session, fleet, (ids, t) => showMoment(session, stage, ids, t));
 watchCheck(session, stage);
 showBlockers(session, stage);
 showViolations(session, stage, fleet);
@@ -159,6 +161,12 @@ document.addEventListener("visibilitychange", () => session.player.skip());
 
 offerHook(session, stage, fleet);
 visits.readUnkept = () => ({ request: address.unkept, plan: keeper.unkept });
-setup.begin(service, address, keeper, visits.unkept, visits.isFirst ? FIRST_EXAMPLE : null).then(() => {
-  if (visits.isFirst) welcome(session, () => planButton.press());
+if (isEmbedded) embed(session);
+setup.begin(service, address, keeper, visits.unkept, visits.isFirst ? FIRST_EXAMPLE : null).then(async () => {
+  if (isEmbedded || address.moment !== null) await showMomentOfPlan(session, address.moment ?? 0);
+  else if (visits.isFirst) welcome(session, () => planButton.press());
 });
+service.fetchVersion().then(
+  (version) => setText(byId("version"), `Fleetplan ${version}`),
+  () => {}, // what else is asked tells it
+);

@@ -20,6 +20,7 @@ export class FleetSection {
   #hold = button("Hold", () => this.#holdSelected());
   #byClick = element("input", { type: "checkbox" });
   #status = element("p", { class: "facts" });
+  #total = element("p", { class: "fleet-clock" }); // how long the fleet has run
   #holds = element("ul", { class: "plain" });
   #charts = element("div", { class: "results" });
   #selected = null;
@@ -41,6 +42,7 @@ export class FleetSection {
       element("div", { class: "parts" }, this.#period.field, this.#held.field),
       element("div", { class: "row" }, this.#start, this.#hold),
       element("label", { class: "choice" }, this.#byClick, "Hold robots by clicking them"),
+      this.#total,
       this.#status,
       this.#holds,
       this.#charts,
@@ -48,6 +50,7 @@ export class FleetSection {
     this.#run.onChange(() => this.#show());
     session.on("answer", () => this.#refresh());
     session.on("marks", () => this.#onMarks());
+    session.on("time", () => this.#run.running && this.#showTotal());
     stage.addOverlay((context, { scale, screen, theme, time }) => {
       for (const { robot } of this.#run.running ? this.#run.holds : []) {
         const radius = session.radiusOf(robot, time) * scale + 5;
@@ -87,11 +90,21 @@ export class FleetSection {
     setText(this.#hold, selected === null ? "Hold" : `Hold ${selected}`);
   }
 
+  #showTotal() {
+    const { rounds, running } = this.#run;
+    const ended = rounds.reduce((sum, { length }) => sum + length, 0);
+    if (!running && ended === 0) return;
+    const total = Math.floor(ended + (running ? this.#session.player.time : 0));
+    const clock = `${Math.floor(total / 60)}:${String(total % 60).padStart(2, "0")}`;
+    setText(this.#total, `In operation for ${clock}`);
+  }
+
   #show() {
     this.#refresh();
     const { rounds, holds } = this.#run;
     const last = rounds.at(-1);
     setText(this.#status, last === undefined ? "" : roundsInWords(rounds.length, last));
+    this.#showTotal();
     this.#holds.replaceChildren(
       ...holds.map(({ robot, left }) => {
         const release = button("Release", () => this.#run.hold(robot, 0), { class: "quiet" });

@@ -9,9 +9,11 @@ import {
   POLICIES,
   simulationOf,
 } from "../model/simulation.js";
+import { nearestAmong } from "../model/comparison.js";
 import { robotChip } from "../panels/robot_list.js";
 import { element, setText } from "../ui/dom.js";
-import { count, seconds } from "../ui/format.js";
+import { showMoment } from "../scene/pair_view.js";
+import { count, metres, seconds } from "../ui/format.js";
 import { quantileRows, shareBar } from "./charts.js";
 import { button, choicePart, numberPart } from "./fields.js";
 
@@ -40,6 +42,8 @@ export class SimulationSection {
   #plan = null; // the answer that is simulated, while one of its runs is played
   /** @type {any} */
   #played = null; // the answer that is such a run
+
+  #isAsking = false;
 
   element;
 
@@ -115,8 +119,11 @@ export class SimulationSection {
   }
 
   async #asking(plan, work) {
-    this.#run.disabled = true;
+    if (this.#isAsking) return;
+    this.#isAsking = true;
+    this.#run.setAttribute("aria-disabled", "true"); // unlike `disabled`, it keeps the focus
     setText(this.#status, "Executing…");
+    this.#session.announce("Executing.");
     try {
       await work();
       setText(this.#status, "");
@@ -124,6 +131,8 @@ export class SimulationSection {
       setText(this.#status, "");
       this.#session.fail(error);
     } finally {
+      this.#isAsking = false;
+      this.#run.removeAttribute("aria-disabled");
       this.#run.disabled = !this.#session.hasPlan;
     }
   }
@@ -158,9 +167,19 @@ export class SimulationSection {
           { class: "chips" },
           ...robots.map((id) => robotChip(this.#session, id)),
           ` ${percent(share)}`,
+          this.#nearestOf(robots),
         ),
       );
     return titled("Colliding pairs", element("ul", { class: "plain" }, ...items));
+  }
+
+  /** Leads to the moment of the plan at which two robots are nearest, with both selected. */
+  #nearestOf(robots) {
+    const { fleet, stage } = this.#page;
+    const nearest = nearestAmong(robots, fleet.byId);
+    if (nearest === null) return "";
+    const words = `${metres(nearest.gap)} apart at ${seconds(nearest.t)}`;
+    return button(words, () => showMoment(this.#session, stage, nearest.ids, nearest.t), { class: "quiet" });
   }
 
   #collisions(plan, form, collisions) {

@@ -3,6 +3,7 @@
 
 import { numbersOfNext, setDefault } from "../model/edit_request.js";
 import { misplaced } from "../model/placement.js";
+import { inShort } from "../panels/summary.js";
 import { byId, setText } from "../ui/dom.js";
 import { count } from "../ui/format.js";
 import { NumberField } from "../ui/number_field.js";
@@ -16,6 +17,7 @@ export class PlacingPanel {
   /** @type {any} */
   #tool = null; // the tool of the Edit tab, null on another tab
   #robotTool;
+  #isAsked = false; // the plan, by this panel
   #refusal = ""; // why the last click placed nothing
   #checked = /** @type {any} */ ({ scene: null, wrong: [] }); // see misplaced
 
@@ -31,7 +33,12 @@ export class PlacingPanel {
     });
     byId("placing-radius").append(this.#radius.element);
     this.#place.addEventListener("click", () => pick("robot"));
-    this.#plan.addEventListener("click", () => byId("plan").click());
+    this.#plan.addEventListener("click", () => {
+      this.#isAsked = true;
+      byId("plan").click();
+    });
+    session.on("request", () => (this.#isAsked = false));
+    session.on("answer", () => this.#refresh());
     session.on("request marks planning", () => this.#refresh());
     robotTool.onRefusal((text) => {
       this.#refusal = text;
@@ -49,12 +56,18 @@ export class PlacingPanel {
     const { scene, request, planning } = this.#session;
     const { robots, grid } = scene;
     const places = this.#tool === this.#robotTool;
-    this.#box.hidden = this.#tool === null || grid === null || (!places && robots.length > 0);
+    const { answer, hasPlan } = this.#session;
+    const hasResult = this.#isAsked && hasPlan && planning === null && !places;
+    const isIdle = this.#tool === null || grid === null || (!places && robots.length > 0);
+    this.#box.hidden = isIdle && !hasResult;
     if (this.#box.hidden) return;
+    byId("placing-result").hidden = !hasResult;
+    setText(byId("placing-result"), hasResult ? inShort(answer, request.options) : "");
+    byId("placing-text").hidden = hasResult;
     this.#place.hidden = places;
     byId("placing-radius").hidden = this.#plan.hidden = !places;
     this.#plan.disabled = planning !== null || robots.length === 0;
-    setText(byId("placing-text"), places ? this.#nextClick(robots) : this.#tool.help);
+    setText(byId("placing-text"), places ? this.#nextClick(robots) : (this.#tool?.help ?? ""));
     const wrong = places ? this.#misplacedIn(scene) : [];
     const fit = places && robots.length > 0 ? inWords(robots, wrong) : "";
     const refusal = places ? this.#refusal : "";

@@ -1,10 +1,17 @@
-// The tool that adds robots: a click for the start and one for the goal, or a drag from one to the other. What is about to
+// The tool that adds robots: a click for the start and one for the goal; a drag from there turns the robot. What is about to
 // be placed is shown to scale, beside walls and others where it is too near to them.
 
 import { centreOf } from "../model/cells.js";
 import { addRobot, nameOf, numbersOfNext } from "../model/edit_request.js";
 import { robotsOf } from "../model/listed.js";
-import { endDisks, lastRadius, placeWithRoom, snapPoint, startDisks } from "../model/placement.js";
+import {
+  endDisks,
+  lastRadius,
+  placeWithRoom,
+  snapHeading,
+  snapPoint,
+  startDisks,
+} from "../model/placement.js";
 import { drawPath, markWrong, ring } from "../scene/marks.js";
 import { metres } from "../ui/format.js";
 import { CellCursor } from "./cell_cursor.js";
@@ -15,7 +22,7 @@ const WAY = { width: 1.5, alpha: 0.8, dashes: [3, 5] };
 let gestures = 0; // for unique names
 
 export class RobotTool {
-  help = "Click where a robot starts, and then where it goes; or drag from one to the other.";
+  help = "Click where a robot starts, and then where it goes. Drag instead, and it faces the pointer.";
   keys = "Alt: exactly here. Esc: without a goal.";
 
   #session;
@@ -23,7 +30,7 @@ export class RobotTool {
   #actions;
   #cursor;
   /** @type {any} */
-  #pressed = null; // {start: null if it does not fit, gesture, index: of the robot, null until it is added} while pressed
+  #pressed = null; // {start: null if it does not fit, gesture, index: of the robot, null until it is added, pose} while pressed
   /** @type {string | null} */
   #added = null; // the id of the robot that was added last, by a click
   #isRefused = false; // the last click placed nothing
@@ -55,19 +62,23 @@ export class RobotTool {
     const gesture = `add ${gestures}`;
     const { awaiting } = this;
     if (awaiting !== null) {
-      this.#pressed = { start: awaiting.start, gesture, index: awaiting.index };
+      this.#pressed = { start: awaiting.start, gesture, index: awaiting.index, pose: "goal" };
       this.#aim(world, event);
     } else {
-      this.#pressed = { start: this.#startAt(world, event), gesture, index: null };
+      this.#pressed = { start: this.#startAt(world, event), gesture, index: null, pose: "start" };
     }
     return true;
   }
 
   drag(world, event) {
     this.#cursor.hover(world);
-    if (this.#pressed.start === null) return;
+    const { start, gesture, pose } = this.#pressed;
+    if (start === null) return;
     if (this.#pressed.index === null) this.#add();
-    this.#aim(world, event);
+    const from = this.#choice.robot?.[pose];
+    if (!from) return;
+    const theta = snapHeading(Math.atan2(world.y - from.y, world.x - from.x), event.altKey);
+    this.#actions.setPose(pose, { theta }, gesture);
   }
 
   release() {
@@ -124,7 +135,11 @@ export class RobotTool {
   key(event) {
     const { cell } = this.#cursor;
     if (cell === null) return false;
-    if (event.key !== "Enter" && event.key !== " ") return this.#cursor.key(event);
+    if (event.key !== "Enter" && event.key !== " ") {
+      const isMoved = this.#cursor.key(event);
+      if (isMoved) this.#announcePlace();
+      return isMoved;
+    }
     this.press(centreOf(this.#session.scene.grid, cell), event);
     this.release();
     return true;
@@ -153,6 +168,20 @@ export class RobotTool {
     this.#refuse("");
     if (Math.hypot(goal.x - start.x, goal.y - start.y) <= radius) return;
     this.#actions.setPose("goal", goal, gesture);
+  }
+
+  /** Where the arrow keys have led, and whether what is placed next fits there. */
+  #announcePlace() {
+    const { scene, request } = this.#session;
+    const { cell } = this.#cursor;
+    if (cell === null) return;
+    const point = centreOf(scene.grid, cell);
+    const place = this.awaiting ? this.#goalAt(point, {}) : this.#startAt(point, {});
+    const what = this.awaiting ? `Goal of ${this.awaiting.id}` : "Start";
+    const where = `(${Number(point.x.toFixed(3))}, ${Number(point.y.toFixed(3))}) m`;
+    const { radius } = this.awaiting ?? numbersOfNext(request);
+    const fit = place === null ? `, too near for a radius of ${metres(radius)}` : "";
+    this.#session.announce(`${what} at ${where}${fit}`);
   }
 
   #refuse(text) {

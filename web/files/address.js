@@ -10,6 +10,7 @@ const REST_MS = 400; // without a further edit
 const MAX_TO_COMPRESS = 2 ** 20; // characters: longer requests are not compressed after each edit
 const PREFIX = "#r=";
 const KEPT = "#kept=";
+const MOMENT = "@"; // before the seconds at the end of a fragment
 const LONGEST_TEXT = 8 * 2 ** 20; // bytes when inflated
 const MAX_ENTRIES = 20; // of the browser's history whose requests are remembered
 
@@ -30,6 +31,12 @@ export class Address {
   #isGoingBack = false; // or forth
   /** @type {string | null} */
   #followed = null; // the fragment of the entry that it went back to
+
+  /**
+   * The moment of the plan that the address asked for, seconds; null: none.
+   * @type {number | null}
+   */
+  moment = null;
 
   /** `opening`: see Opening; `kept`: see keptRequests. */
   constructor(session, opening, kept) {
@@ -61,6 +68,8 @@ export class Address {
   async begin(examples, preferred = null, unkept = null) {
     this.#examples = examples;
     if (this.#opening.begun) return false;
+    this.moment = momentOf(location.hash);
+    if (this.moment !== null) put(withoutMoment(location.hash));
     const { name } = entryState();
     if (unkept !== null && (await this.#opening.text(name ?? "request", unkept))) return true;
     let problem = null;
@@ -78,10 +87,14 @@ export class Address {
     return named !== undefined;
   }
 
-  /** An address that opens the session's request: {address, length}, with the length of the fragment. */
-  async link() {
+  /**
+   * An address that opens the session's request, at a moment of its plan if there is one (seconds): {address, length}, with
+   * the length of the fragment.
+   */
+  async link(moment = /** @type {number | null} */ (null)) {
     const { example, request } = this.#session;
-    const fragment = example === null ? await writeLinkState(request) : `#${example}`;
+    const open = example === null ? await writeLinkState(request) : `#${example}`;
+    const fragment = moment === null ? open : `${open}${MOMENT}${Number(moment.toFixed(2))}`;
     return { address: new URL(fragment, location.href).href, length: fragment.length };
   }
 
@@ -180,6 +193,14 @@ export class Address {
     }
   }
 }
+
+/** The moment at the end of a fragment, seconds, or null. */
+function momentOf(fragment) {
+  const text = fragment.slice(fragment.lastIndexOf(MOMENT) + 1);
+  return fragment.includes(MOMENT) && /^\d+(\.\d+)?$/.test(text) ? Number(text) : null;
+}
+
+const withoutMoment = (fragment) => fragment.slice(0, fragment.lastIndexOf(MOMENT));
 
 const put = (fragment) => amendEntry({}, fragment);
 

@@ -1,22 +1,24 @@
-// The examples as pictures with their titles, of which one may be chosen. A picture shows the map, robots at their starts,
-// and their goals. It is made of the example when it comes into sight, so that a visit loads few of them.
+// The gallery of examples: a dialog with a picture, the title and a sentence on each. A picture shows the map, robots at
+// their starts, and their goals. It is made of the example when it comes into sight, so that a visit loads few of them.
 
 import { readScene, readTracks } from "../model/scene.js";
 import { Painter } from "../scene/draw.js";
 import { fit } from "../scene/view.js";
 import { byId, element } from "../ui/dom.js";
+import { count } from "../ui/format.js";
 import { prepareRequest } from "./prepare.js";
 
-const SIZE = { width: 92, height: 60 }; // pixels of a picture
-const MARGIN = { left: 3, right: 3, bottom: 3, top: 3 }; // pixels around the map
+const SIZE = { width: 140, height: 92 }; // pixels of a picture
+const MARGIN = { left: 4, right: 4, bottom: 4, top: 4 }; // pixels around the map
 const LOOK = { colours: "robot", paths: "none", heat: "none", lattice: false, travel: null };
 
 export class ExampleChoice {
   #colours;
   #fetchExample;
   #work;
+  #dialog = byId("gallery");
   #box = byId("examples");
-  #items = new Map(); // name -> {item, radio, canvas, scene: null until it is drawn}
+  #items = new Map(); // name -> {button, canvas, scene: null until it is drawn}
   #choose = /** @type {(name: string) => void} */ (() => {});
   #sights;
   #drawn = Promise.resolve(); // the pictures that were asked for, one after the other
@@ -28,8 +30,11 @@ export class ExampleChoice {
     this.#colours = colours;
     this.#fetchExample = fetchExample;
     this.#work = work;
-    this.#sights = new IntersectionObserver((seen) => this.#onSight(seen), { root: this.#box });
+    this.#sights = new IntersectionObserver((seen) => this.#onSight(seen), { root: this.#dialog });
     colours.onChange(() => this.#items.forEach((item) => item.scene && this.#paint(item)));
+    byId("open-gallery").addEventListener("click", () => this.#open());
+    byId("close-gallery").addEventListener("click", () => this.#dialog.close());
+    this.#dialog.addEventListener("click", ({ target }) => target === this.#dialog && this.#dialog.close());
   }
 
   /** `choose(name)` is called when an example is chosen. */
@@ -37,48 +42,55 @@ export class ExampleChoice {
     this.#choose = choose;
   }
 
-  /** Lists the examples: [{name, title}]. */
+  /** Lists the examples: [{name, title, description, robots, columns, rows}]. */
   show(examples) {
     this.#sights.disconnect();
     this.#items = new Map(examples.map((example) => [example.name, this.#item(example)]));
-    const items = [...this.#items.values()].map(({ item }) => item);
-    this.#box.replaceChildren(
-      ...(items.length > 0 ? items : [element("p", { class: "facts", textContent: "No examples" })]),
-    );
+    const items = [...this.#items.values()].map(({ button }) => element("li", {}, button));
+    const none = element("li", {
+      class: "facts",
+      textContent: "The service has no examples, or did not list them.",
+    });
+    this.#box.replaceChildren(...(items.length > 0 ? items : [none]));
     for (const { canvas } of this.#items.values()) this.#sights.observe(canvas);
   }
 
   /** Marks the example that is open; null: none is. */
   mark(name) {
-    const found = this.#items.get(name);
-    for (const { radio } of this.#items.values()) radio.checked = radio === found?.radio;
-    if (name !== this.#marked && found) this.#reveal(found.item);
     this.#marked = name;
+    for (const [each, { button }] of this.#items) {
+      if (each === name) button.setAttribute("aria-current", "true");
+      else button.removeAttribute("aria-current");
+    }
   }
 
-  #item({ name, title }) {
-    const radio = element("input", { type: "radio", name: "example", value: name, class: "visually-hidden" });
-    radio.addEventListener("change", () => this.#choose(name));
-    const canvas = element("canvas", { "aria-hidden": "true", "data-example": name });
-    return {
-      item: element("label", { class: "example" }, radio, canvas, title || name),
-      radio,
+  #open() {
+    this.#dialog.showModal();
+    this.#items.get(this.#marked)?.button.focus();
+  }
+
+  #item({ name, title, description, robots, columns, rows }) {
+    const canvas = element("canvas", { "aria-hidden": "true" });
+    const facts = `${count(robots, "robot")}, ${columns} × ${rows} cells`;
+    const button = element(
+      "button",
+      { type: "button", class: "example", "data-example": name },
       canvas,
-      scene: null,
-    };
-  }
-
-  /** Scrolls the examples, and nothing around them. */
-  #reveal(item) {
-    const [box, inner] = [this.#box, item].map((part) => part.getBoundingClientRect());
-    if (inner.left >= box.left && inner.right <= box.right) return;
-    this.#box.scrollLeft += (inner.left + inner.right - box.left - box.right) / 2;
+      element("strong", { textContent: title || name }),
+      element("span", { textContent: description }),
+      element("small", { textContent: facts }),
+    );
+    button.addEventListener("click", () => {
+      this.#dialog.close();
+      this.#choose(name);
+    });
+    return { button, canvas, scene: null };
   }
 
   #onSight(seen) {
     for (const { isIntersecting, target } of seen) {
-      const name = target.dataset.example;
-      if (isIntersecting) this.#drawn = this.#drawn.then(() => this.#draw(name));
+      const { example } = target.parentElement.dataset;
+      if (isIntersecting) this.#drawn = this.#drawn.then(() => this.#draw(example));
     }
   }
 

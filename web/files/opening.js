@@ -3,6 +3,7 @@
 import { isSameTask } from "../model/earlier_plans.js";
 import { isAlike } from "../model/kept_plan.js";
 import { nextTask } from "../model/latest.js";
+import { count } from "../ui/format.js";
 import { ConnectionLost, FileError, ProblemError } from "../model/problem.js";
 import { readLinkState } from "./address.js";
 import { prepareRequest } from "./prepare.js";
@@ -148,6 +149,8 @@ export class Opening {
     if (Array.isArray(opened.request.robots) && opened.request.robots.length === 0) {
       session.announce(`${opened.name} is open and has no robots yet: click where one starts.`);
       this.#show("robots");
+    } else {
+      session.announce(`${opened.name} is open: ${count(session.scene.robots.length, "robot")}.`);
     }
   }
 }

@@ -11,6 +11,7 @@ const SHOWN_MS = 1500;
 /** `address`: see Address; `needsToken()` resolves to whether the service asks for a token. */
 export function watchSaving(session, address, needsToken) {
   const [request, plan, link] = ["save-request", "save-plan", "copy-link"].map(byId);
+  const moment = byId("copy-moment");
   const curl = ["copy-curl", "welcome-curl"].map(byId);
   const python = ["copy-python", "welcome-python"].map(byId);
   const note = byId("save-note");
@@ -31,6 +32,7 @@ export function watchSaving(session, address, needsToken) {
   byId("welcome").addEventListener("focusin", learn);
   session.on("answer", () => {
     for (const button of [request, ...curl, ...python, link]) button.disabled = session.request === null;
+    moment.disabled = !session.hasPlan;
     plan.disabled = session.answer === null || session.outdated !== null;
     note.hidden = true;
   });
@@ -47,12 +49,14 @@ export function watchSaving(session, address, needsToken) {
   };
   copies(curl, curlCommand);
   copies(python, pythonProgram);
-  link.addEventListener("click", async () => {
-    const { address: made, length } = await address.link();
+  const copyLink = async (button, at) => {
+    const { address: made, length } = await address.link(at);
     note.hidden = length <= LONGEST_LINK;
     setText(note, tooLong(length, session.scene));
-    if (note.hidden) copyFrom(link, made, session);
-  });
+    if (note.hidden) copyFrom(button, made, session);
+  };
+  link.addEventListener("click", () => copyLink(link, null));
+  moment.addEventListener("click", () => copyLink(moment, session.player.time));
 }
 
 function tooLong(length, { grid, robots }) {

@@ -42,7 +42,11 @@ export function watchSharing(session, stage, load, stem) {
     recording = new AbortController();
     const label = animation.firstChild;
     const words = label.textContent;
-    const progress = (share) => (label.textContent = `Recording, ${Math.round(share * 100)} %: stop `);
+    const begun = performance.now();
+    const progress = (share) => {
+      label.textContent = `Recording, ${Math.round(share * 100)} %: stop `;
+      tell(share > 0 ? leftInWords((performance.now() - begun) / 1000, share, session.player.duration) : "");
+    };
     const recorded = await load.animation().then(
       ({ canRecord, recordPlan }) =>
         canRecord() ? recordPlan(session, scene, recording?.signal, progress) : undefined,
@@ -53,6 +57,13 @@ export function watchSharing(session, stage, load, stem) {
     tell(recorded === undefined ? FAILED : "");
     if (recorded) saveBlob(`${stem()}.webm`, recorded);
   });
+}
+
+/** How long recording goes on, in words, after some seconds and a share of it; `duration` is the plan's. */
+export function leftInWords(passed, share, duration) {
+  const whole = passed / share;
+  const left = `About ${Math.max(1, Math.round(whole - passed))} s left`;
+  return whole > duration ? `${left}: longer than the plan, as this computer draws slowly.` : `${left}.`;
 }
 
 function pageOf({ sharedPage }, { name, request, answer }) {

@@ -21,8 +21,12 @@ export class Visits {
   /** Returns what is not kept yet, see `unkept`. */
   readUnkept = /** @type {() => {request: any, plan: any}} */ (() => ({ request: null, plan: null }));
 
-  /** Puts what was open into the address and into the browser's history, where Address and PlanKeeper find it. */
-  constructor() {
+  /**
+   * Puts what was open into the address and into the browser's history, where Address and PlanKeeper find it; not for a page
+   * that `isEmbedded`, which is not a visit.
+   */
+  constructor(isEmbedded = false) {
+    if (isEmbedded) return;
     const here = isReload() ? read(() => sessionStorage) : null;
     forget(() => sessionStorage); // it is of the reload only
     if (here !== null) {

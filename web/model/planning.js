@@ -36,6 +36,7 @@ export class Planning {
     this.#view.show(null, false);
     this.#session.emit("answer");
     this.#session.emit("planning");
+    session.announce("Planning.");
     try {
       const answer = await this.#service.plan(session.text, run.signal, {
         progress: (progress) => this.run === run && this.#onProgress(run, progress),

@@ -1,6 +1,7 @@
 // The card of several chosen robots: their figures side by side, and where they are nearest to each other.
 
 import { compareRobots, nearestAmong } from "../model/comparison.js";
+import { showMoment } from "../scene/pair_view.js";
 import { byId, element } from "../ui/dom.js";
 import { count, metres, seconds } from "../ui/format.js";
 import { robotChip } from "./robot_list.js";
@@ -8,8 +9,8 @@ import { robotChip } from "./robot_list.js";
 const MAX = 50; // robots whose nearest approach is computed at once
 const COLUMNS = ["Robot", "Cost, s", "Delay", "Drives", "Turns", "Waits", "Distance, m"];
 
-/** `fleet`: see FleetMotion. */
-export function watchChosen(session, fleet) {
+/** `stage`: see Stage; `fleet`: see FleetMotion. */
+export function watchChosen(session, stage, fleet) {
   const box = byId("chosen");
   let shown = ""; // the ids and the answer, so that hovering does not build the table again
   let answer = null;
@@ -19,11 +20,11 @@ export function watchChosen(session, fleet) {
     shown = chosen.join("\n");
     answer = session.answer;
     box.hidden = chosen.length < 2;
-    box.replaceChildren(...(box.hidden ? [] : contentOf(session, fleet, chosen)));
+    box.replaceChildren(...(box.hidden ? [] : contentOf(session, stage, fleet, chosen)));
   });
 }
 
-function contentOf(session, fleet, chosen) {
+function contentOf(session, stage, fleet, chosen) {
   const heading = element("h2", {
     id: "chosen-title",
     textContent: `${count(chosen.length, "robot")} selected`,
@@ -31,7 +32,7 @@ function contentOf(session, fleet, chosen) {
   if (session.answer === null) return [heading, element("p", { class: "facts" }, "Plan to compare them.")];
   const table = tableOf(session, compareRobots(chosen, session.tracks));
   const nearest = chosen.length <= MAX ? nearestAmong(chosen, fleet.byId) : null;
-  return [heading, table, nearest === null ? "" : nearestButton(session, nearest)];
+  return [heading, table, nearest === null ? "" : nearestButton(session, stage, nearest)];
 }
 
 function tableOf(session, rows) {
@@ -54,15 +55,12 @@ function tableOf(session, rows) {
   );
 }
 
-function nearestButton(session, { t, gap, ids }) {
+function nearestButton(session, stage, { t, gap, ids }) {
   const show = element("button", {
     type: "button",
     class: "quiet",
     textContent: `Nearest: ${ids.join(" and ")}, ${metres(gap)} at ${seconds(t)}`,
   });
-  show.addEventListener("click", () => {
-    session.pause();
-    session.seek(t);
-  });
+  show.addEventListener("click", () => showMoment(session, stage, ids, t));
   return show;
 }

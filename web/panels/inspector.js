@@ -74,6 +74,9 @@ export class Inspector {
     this.#current = -1;
     this.#box.hidden = selected === null || answer === null || this.#isGroup || this.#tabs.chosen === EDITING;
     if (this.#box.hidden) {
+      const hadFocus = this.#box.contains(document.activeElement) || document.activeElement === this.#box;
+      if (hadFocus)
+        /** @type {HTMLElement | null} */ (document.querySelector("#robots [tabindex='0']"))?.focus();
       this.#box.replaceChildren();
       return;
     }

@@ -1,6 +1,7 @@
 // The options of the request as a form, each with its default, unit and description. The form follows the
 // service's OpenAPI document, which is fetched when the form is needed for the first time.
 
+import { grouped } from "../model/option_groups.js";
 import { optionOf, readOptions, withOption } from "../model/options.js";
 import { ProblemError } from "../model/problem.js";
 import { byId, element, setText } from "../ui/dom.js";
@@ -38,7 +39,7 @@ export class OptionsPanel {
     this.#showNote("Loading the options…");
     try {
       const options = readOptions(await this.#fetchDocument());
-      this.#form.replaceChildren(...options.map((option) => this.#field(option)));
+      this.#form.replaceChildren(...grouped(options).map((group) => this.#group(group)));
       this.#showLimits();
       this.#refresh();
     } catch (error) {
@@ -52,7 +53,18 @@ export class OptionsPanel {
     this.#form.replaceChildren(element("p", { class: "facts", role: "status", textContent }));
   }
 
-  #field(option) {
+  #group({ title, options }) {
+    const fields = options.map(({ option, cost }) => this.#field(option, cost));
+    const heading = element("summary", {}, element("h2", { textContent: title }));
+    return element(
+      "details",
+      { class: "section option-group", open: title !== "Expert" },
+      heading,
+      ...fields,
+    );
+  }
+
+  #field(option, cost) {
     const id = `option-${option.name}`;
     const input = inputFor(option, id);
     const reset = element("button", {
@@ -65,6 +77,8 @@ export class OptionsPanel {
       "small",
       { id: `${id}-help` },
       ...withCode(option.description),
+      " ",
+      cost === "" ? "" : element("span", { class: "option-cost", textContent: cost }),
       " ",
       defaultNote(option),
     );

@@ -4,6 +4,7 @@ import { ChunkedList } from "../ui/chunked_list.js";
 import { byId, element, scrollWithin, setText } from "../ui/dom.js";
 import { count, seconds } from "../ui/format.js";
 
+const PAGE = 10; // robots that the page keys move by
 const EVERY_MS = 150; // between updates while playing
 
 export class RobotList {
@@ -27,13 +28,17 @@ export class RobotList {
     });
     this.#list.addEventListener("keydown", (event) => {
       const id = idOf(event);
+      if (this.#move(event, id)) return;
       if (event.key !== "Enter" || !(event.ctrlKey || event.metaKey) || id === null) return;
       event.preventDefault(); // browsers do not click with Ctrl
       session.toggleChosen(id);
     });
     this.#list.addEventListener("pointerover", (event) => session.hover(idOf(event)));
     this.#list.addEventListener("pointerleave", () => session.hover(null));
-    this.#list.addEventListener("focusin", (event) => session.hover(idOf(event)));
+    this.#list.addEventListener("focusin", (event) => {
+      this.#stopAt(idOf(event));
+      session.hover(idOf(event));
+    });
     this.#list.addEventListener("focusout", () => session.hover(null));
     filter.onChange(() => this.#show());
     colours.onChange(() => this.#show());
@@ -45,6 +50,40 @@ export class RobotList {
     session.on("time", () => {
       if (!session.player.playing || performance.now() - this.#updated >= EVERY_MS) this.#update();
     });
+  }
+
+  /** Moves the focus to another robot, or to the card of this one; returns whether the key is for that. */
+  #move(event, id) {
+    const { robots } = this.#filter;
+    const at = robots.findIndex((robot) => robot.id === id);
+    if (at < 0 || event.ctrlKey || event.metaKey || event.altKey) return false;
+    if (event.key === "ArrowRight") {
+      if (this.#session.selected !== id) this.#session.select(id);
+      focusCard();
+      event.preventDefault();
+      return true;
+    }
+    const last = robots.length - 1;
+    const places = {
+      ArrowDown: at + 1,
+      ArrowUp: at - 1,
+      PageDown: at + PAGE,
+      PageUp: at - PAGE,
+      Home: 0,
+      End: last,
+    };
+    if (!(event.key in places)) return false;
+    event.preventDefault();
+    const to = robots[Math.min(last, Math.max(0, places[event.key]))].id;
+    this.#chunks.fillAt(robots.findIndex((robot) => robot.id === to));
+    this.#rows.get(to)?.button.focus();
+    return true;
+  }
+
+  /** The list is one stop of the tab key: the robot with the focus, or the selected one, or the first. */
+  #stopAt(id) {
+    const stop = this.#rows.has(id) ? id : (this.#rows.keys().next().value ?? null);
+    for (const [each, { button }] of this.#rows) button.tabIndex = each === stop ? 0 : -1;
   }
 
   #choose(id, { ctrlKey, metaKey, shiftKey }) {
@@ -99,6 +138,8 @@ export class RobotList {
       const pressed = String(id !== hovered ? marked.has(id) : id === this.#session.selected);
       if (button.getAttribute("aria-pressed") !== pressed) button.setAttribute("aria-pressed", pressed);
     }
+    const focused = /** @type {HTMLElement | null} */ (document.activeElement)?.dataset.robot;
+    this.#stopAt(this.#list.contains(document.activeElement) ? focused : this.#session.selected);
   }
 
   #reveal(id) {
@@ -110,6 +151,12 @@ export class RobotList {
   }
 
   #revealed = null;
+}
+
+/** Leads to the card of the selected robot, which Escape closes. */
+function focusCard() {
+  const card = byId("inspector");
+  if (!card.hidden) card.focus();
 }
 
 /** The end of a list that names only the first of `total` robots; null when it names all. */

@@ -26,11 +26,14 @@ export function summarize(answer) {
 }
 
 /** Shows the figures of the session's answer; a plan from a file may lack some of them. */
-export function watchSummary(session) {
-  session.on("answer check", () => showSummary(session));
+/** `fleet`: see FleetMotion; `show(ids, t)` shows a moment of two robots. */
+export function watchSummary(session, fleet, show) {
+  const refresh = () => showSummary(session, fleet, show);
+  session.on("answer check", refresh);
+  fleet.onCurve(refresh);
 }
 
-function showSummary(session) {
+function showSummary(session, fleet, show) {
   const { answer, check, outdated } = session;
   const box = byId("summary");
   box.hidden = answer === null;
@@ -50,9 +53,26 @@ function showSummary(session) {
   );
   box.classList.toggle("outdated", outdated !== null);
   box.replaceChildren(outdated === null ? badges(answer, check) : outdatedNote(answer, outdated), figures);
+  if (fleet.least !== null && outdated === null) box.append(leastButton(fleet.least, show));
   if (answer.timings_ms) box.append(otherTimings(answer.timings_ms));
   if (answer.lattice_spacing) box.append(fact(`Lattice spacing ${metres(answer.lattice_spacing)}`));
   if (answer.warnings.length > 0) box.append(warningList(answer.warnings));
+}
+
+/** Leads to the moment at which two robots are closest in all of the plan. */
+function leastButton({ ids, t, gap }, show) {
+  const textContent = `Closest: ${ids.join(" and ")}, ${metres(gap)} at ${seconds(t)}`;
+  const button = element("button", { type: "button", class: "quiet least", textContent });
+  button.addEventListener("click", () => show(ids, t));
+  return button;
+}
+
+/** What people want to know of a new plan at once: whether it is solved and verified, its smallest gap and margins. */
+export function inShort({ status, verified, min_clearance: gap = null }, options = {}) {
+  const outcome = `${OUTCOMES[status]?.text ?? status}${verified ? ", verified" : ""}`;
+  const nearest = gap === null ? "" : ` Smallest gap ${metres(gap)}.`;
+  const { inflation = 0, interval_margin = 0 } = options;
+  return `${outcome}.${nearest} Margins: ${metres(inflation)} around each robot, ${seconds(interval_margin)} early or late.`;
 }
 
 function effort({ timings_ms: timings, search }) {

@@ -2,10 +2,13 @@
 
 import { eventTimes, nextEvent } from "../model/playback.js";
 import { byId, setText } from "../ui/dom.js";
+import { count, seconds } from "../ui/format.js";
 import { NO_PREFERENCES } from "../ui/preferences.js";
 
 const KEY_STEP = 0.25; // seconds
 const LONG_KEY_STEP = 2; // seconds
+const SAME = 1e-6; // seconds, as of nextEvent
+const MAX_NAMED = 3; // robots that an event is told of
 const PER_SECOND = 1e6; // browsers keep 15 digits of a value: of the latest times, these decimals
 
 export class Transport {
@@ -47,6 +50,7 @@ export class Transport {
     this.#scrubber.addEventListener("keydown", (event) => this.#onKey(event));
     session.on("answer", () => this.#events.clear());
     session.on("answer time playback", () => this.#refresh());
+    this.#refresh();
   }
 
   restart() {
@@ -56,7 +60,20 @@ export class Transport {
   /** To the next event (+1) or the previous event (-1), of the selected robot if there is one. */
   step(direction) {
     this.#session.pause();
-    this.#session.seek(nextEvent(this.#eventsOf(this.#session.selected), this.#player.time, direction));
+    const times = this.#eventsOf(this.#session.selected);
+    this.#session.seek(nextEvent(times, this.#player.time, direction));
+    this.#session.announce(`${seconds(this.#player.time)}: ${this.#changesAt(this.#player.time)}`);
+  }
+
+  /** What robots do from a time on, in words: the selected one, or those that begin something. */
+  #changesAt(time) {
+    const { tracks, selected } = this.#session;
+    const begins = ({ actions }) => actions.some(({ t_start }) => Math.abs(t_start - time) < SAME);
+    const ends = ({ cost }) => cost !== null && Math.abs(cost - time) < SAME;
+    const changed = [...tracks].filter(([, track]) => begins(track) || ends(track)).map(([id]) => id);
+    const ids = selected !== null && changed.includes(selected) ? [selected] : changed;
+    const named = ids.slice(0, MAX_NAMED).map((id) => `${id} ${this.#session.stateOf(id)}`);
+    return [...named, ...(ids.length > MAX_NAMED ? [`${ids.length - MAX_NAMED} more`] : [])].join(", ");
   }
 
   toggleLoop() {
@@ -101,7 +118,7 @@ export class Transport {
     this.#scrubber.max = String(scrubberEnd(duration) || 1);
     this.#scrubber.value = String(time);
     this.#scrubber.style.setProperty("--share", `${idle ? 0 : (time / duration) * 100}%`);
-    this.#scrubber.setAttribute("aria-valuetext", `${time.toFixed(2)} of ${duration.toFixed(2)} seconds`);
+    this.#scrubber.setAttribute("aria-valuetext", spoken(time, duration));
     const end = duration.toFixed(2);
     setText(this.#clock, `${time.toFixed(2)} / ${end} s`);
     this.#clock.parentElement.style.setProperty("--digits", String(2 * end.length + 5)); // one width while it plays
@@ -130,6 +147,17 @@ export class Transport {
     event.preventDefault();
     this.#session.seek(targets[event.key]);
   }
+}
+
+/** A time in words, such as "1 minute 5.2 seconds of 2 minutes 0.0 seconds". */
+function spoken(time, duration) {
+  const words = (value) => {
+    const tenths = Math.round(value * 10);
+    const minutes = Math.floor(tenths / 600);
+    const rest = `${((tenths % 600) / 10).toFixed(1)} seconds`;
+    return minutes === 0 ? rest : `${count(minutes, "minute")} ${rest}`;
+  };
+  return duration > 0 ? `${words(time)} of ${words(duration)}` : "no plan yet";
 }
 
 /** Tells the styles how high the player is, above which cards open. */

@@ -68,6 +68,8 @@ export class ClosestOverlay {
     this.#on = !this.#on;
     this.#button.setAttribute("aria-pressed", String(this.#on));
     this.#stage.redraw();
+    const pair = this.#on ? this.#fleet.nearestAt(this.#session.player.time) : null;
+    if (pair !== null) this.#session.announce(`Closest now: ${pair.ids.join(" and ")}, ${metres(pair.gap)}.`);
   }
 
   /** Shows the pair temporarily (true) or no longer. */

@@ -42,6 +42,11 @@ export async function needsToken() {
   return (await unlessCut(fetch("v1/limits", { credentials: "omit" }))).status === 401;
 }
 
+/** The version of the service. */
+export async function fetchVersion() {
+  return parseAnswer(await ask("healthz"), ["version"]).version;
+}
+
 /** The OpenAPI document of the service, which describes the options of a request. */
 export async function fetchOpenApi() {
   return parseAnswer(await ask("v1/openapi.json"));

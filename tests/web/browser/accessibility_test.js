@@ -43,7 +43,13 @@ const STATES = {
     await page.fill("#placing-radius input", "40");
     await page.waitForSelector("#placing-fit.wrong");
   },
-  "a form to paste into": (page) => page.click("#paste"),
+  "the gallery of examples": async (page) => {
+    await page.click("#open-gallery");
+  },
+  "a form to paste into": async (page) => {
+    await page.keyboard.press("Escape");
+    await page.click("#paste");
+  },
   "a request with faults": async (page) => {
     await page.click("#paste");
     await paste(page, {

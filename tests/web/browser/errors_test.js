@@ -146,7 +146,7 @@ test("at 200 % zoom, and in a window of 320 pixels, nothing is cut off", async (
         for (const tab of ["plan", "edit", "options", "analyse"]) {
           await openTab(page, tab);
           await twoFrames(page); // until then, what was hidden may have the layout of the former width
-          if (tab === "options") await page.waitForSelector("#option-seed");
+          if (tab === "options") await page.waitForSelector("#option-inflation");
           const cut = await page.evaluate(() =>
             [...document.querySelectorAll("button, select, input, summary, p, h2")]
               .filter(
@@ -181,8 +181,10 @@ async function pressUntil(page, key, selector) {
 test("by keys alone an example is chosen and planned, the plan paused, and a robot of it inspected", async () => {
   await onPage(async (page) => {
     const first = await hook(page, "request");
-    await pressUntil(page, "Tab", "input[name=example]");
-    await page.keyboard.press("ArrowRight");
+    await pressUntil(page, "Tab", "#open-gallery");
+    await page.keyboard.press("Enter");
+    await pressUntil(page, "Tab", ".example:not([aria-current])");
+    await page.keyboard.press("Enter");
     await page.waitForFunction(
       (text) => JSON.stringify(window.fleetplan.request) !== text,
       JSON.stringify(first),

@@ -21,6 +21,7 @@ test("options are set in the request, and defaults are omitted", async () => {
   await onPage(async (page) => {
     await paste(page, REQUEST);
     await page.click("#tab-options");
+    await page.getByText("Expert", { exact: true }).click();
     await page.fill("#option-seed", "12");
     await page.selectOption("#option-mode", "anytime");
     await page.fill("#option-max_iterations", "20");
@@ -47,15 +48,17 @@ test("the form has the options of the service's document, fetched when the tab i
     const asked = () => requested.filter((address) => address.endsWith("/v1/openapi.json")).length;
     assert.equal(asked(), 0);
     await page.click("#tab-options");
-    await page.waitForSelector("#option-seed");
+    await page.waitForSelector("#option-inflation");
     const { components } = await page.evaluate(async () => (await fetch("v1/openapi.json")).json());
     const { properties } = components.schemas.PlanOptions;
     const shown = await page.evaluate(() =>
-      [...document.querySelectorAll("#options [id^=option-]:is(input, select)")].map(({ id }) => id),
+      [...document.querySelectorAll("#options [id^=option-]:is(input, select)")].map(({ id }) => id).sort(),
     );
     assert.deepEqual(
       shown,
-      Object.keys(properties).map((name) => `option-${name}`),
+      Object.keys(properties)
+        .map((name) => `option-${name}`)
+        .sort(),
     );
     assert.equal(await page.getAttribute("#option-inflation", "min"), String(properties.inflation.minimum));
     const modes = await page.evaluate(() =>
@@ -78,7 +81,7 @@ test("options that cannot be loaded are reported, and loaded when the tab is ope
       await page.unroute(document);
       await page.click("#tab-plan");
       await page.click("#tab-options");
-      await page.waitForSelector("#option-seed");
+      await page.waitForSelector("#option-inflation");
     },
     { allowed: /ERR_FAILED/ },
   );
@@ -88,6 +91,7 @@ test("typing a value is one undo step", async () => {
   await onPage(async (page) => {
     await paste(page, REQUEST);
     await page.click("#tab-options");
+    await page.getByText("Expert", { exact: true }).click();
     await page.locator("#option-seed").pressSequentially("345");
     await page.keyboard.press("Tab");
     await requestIs(page, { ...REQUEST, options: { seed: 345 } });

@@ -517,6 +517,7 @@ for (const width of [1440, 390]) {
   test(`the examples are pictures with whole names, drawn as they come into sight, ${width} pixels`, async () => {
     await onPage(
       async (page) => {
+        await page.click("#open-gallery");
         const cut = await page.$$eval(".example", (items) =>
           items
             .filter((item) => {
@@ -529,7 +530,7 @@ for (const width of [1440, 390]) {
         const pictures = page.locator(".example canvas");
         await page.waitForFunction(isDrawn, await pictures.first().elementHandle());
         assert.equal(await pictures.last().evaluate(isDrawn), false, "not before it is in sight");
-        await page.evaluate(() => document.getElementById("examples").scrollBy(10_000, 0));
+        await page.evaluate(() => document.getElementById("gallery").scrollBy(0, 10_000));
         await page.waitForFunction(isDrawn, await pictures.last().elementHandle());
       },
       { options: { viewport: { width, height: 844 } } },
@@ -537,7 +538,7 @@ for (const width of [1440, 390]) {
   });
 }
 
-test("the pictures of examples are chosen by a click and by arrow keys", async () => {
+test("examples are chosen in the gallery by a click and by keys", async () => {
   await onPage(async (page) => {
     const { examples } = await page.evaluate(async () => (await fetch("v1/examples")).json());
     const isOpen = async ({ name, title, robots }) => {
@@ -545,9 +546,21 @@ test("the pictures of examples are chosen by a click and by arrow keys", async (
       assert.equal(await text(page, "#request-name"), title);
       assert.equal(await chosenExample(page), name);
     };
-    await page.click(`[data-example="${examples[1].name}"]`);
+    await page.click("#open-gallery");
+    await page.click(`.example[data-example="${examples[1].name}"]`);
     await isOpen(examples[1]);
-    await page.keyboard.press("ArrowRight");
+    assert.equal(await page.isVisible("#gallery"), false);
+    await page.click("#open-gallery");
+    const focused = () => page.evaluate(() => /** @type {any} */ (document.activeElement).dataset.example);
+    assert.equal(await focused(), examples[1].name, "it begins at the one that is open");
+    await page.keyboard.press("Tab");
+    assert.equal(await focused(), examples[2].name);
+    assert.ok(
+      (await page.innerText(`.example[data-example="${examples[2].name}"]`)).includes(
+        examples[2].description,
+      ),
+    );
+    await page.keyboard.press("Enter");
     await isOpen(examples[2]);
   });
 });

@@ -77,7 +77,7 @@ test("a page that loads shows no such notice meanwhile", async () => {
       await route.continue();
     });
     await page.goto(url, { waitUntil: "commit" });
-    await page.waitForSelector("#examples");
+    await page.waitForSelector("#open-gallery");
     const { after, at } = await stopNotice(page);
     await at(after - 0.1);
     assert.equal(await page.isVisible("#not-loaded"), false);
@@ -137,7 +137,7 @@ test("examples and limits that do not load are loaded again on demand", async ()
       await page.click("#problem .again");
       await begun(page);
       await page.waitForSelector("#problem", { state: "hidden" });
-      assert.ok((await page.locator("input[name=example]").count()) > 3);
+      assert.ok((await page.locator(".example").count()) > 3);
     });
   }
 });

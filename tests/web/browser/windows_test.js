@@ -61,6 +61,9 @@ for (const [width, height] of SIZES) {
           const menu = await boxOf(page, "#view-menu .menu-body");
           assert.ok(menu.x >= 0 && menu.x + menu.width <= width, `the View menu is at ${menu.x}`);
           await page.keyboard.press("Escape");
+          await page.click("#open-gallery");
+          await assertInWindow(page, "#gallery", "the gallery");
+          await page.keyboard.press("Escape");
           await choose(page, "crossing");
           await assertRoom(page, "an example");
           await pressPlan(page);

@@ -84,14 +84,11 @@ export async function choose(page, name) {
 
 /** Chooses an example, as a press on its picture does, also if it is the chosen one. */
 export async function pickExample(page, name) {
-  await page.locator(`input[name=example][value="${name}"]`).evaluate((radio) => {
-    radio.checked = true;
-    radio.dispatchEvent(new Event("change", { bubbles: true }));
-  });
+  await page.locator(`.example[data-example="${name}"]`).evaluate((button) => button.click());
 }
 
 /** The name of the example that is chosen. */
-export const chosenExample = (page) => page.locator("input[name=example]:checked").inputValue();
+export const chosenExample = (page) => page.getAttribute(".example[aria-current]", "data-example");
 
 /** Presses Plan and waits for the answer. */
 export async function pressPlan(page) {
