@@ -91,8 +91,9 @@ foreach(link ${links})
   string(REGEX REPLACE "[ \t]*${link}\n" "" index "${index}")
 endforeach()
 
-# Then what else it names: scripts and pictures.
-string(REGEX MATCHALL " (src|href)=\"[^\":#]+\"" references "${index}")
+# Then what else it names: scripts and pictures. Links for people lead to the service.
+string(REGEX REPLACE "<a [^>]+>" "" named "${index}")
+string(REGEX MATCHALL " (src|href)=\"[^\":#]+\"" references "${named}")
 list(REMOVE_DUPLICATES references)
 foreach(reference ${references})
   string(REGEX MATCH "\"(.+)\"" quoted "${reference}")

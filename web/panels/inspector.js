@@ -67,6 +67,8 @@ export class Inspector {
 
   #show() {
     const { selected, answer } = this.#session;
+    const before = this.#shown;
+    const hadFocus = this.#box.contains(document.activeElement);
     this.#shown = selected;
     this.#ofGroup = this.#isGroup;
     this.#speeds = null;
@@ -74,9 +76,7 @@ export class Inspector {
     this.#current = -1;
     this.#box.hidden = selected === null || answer === null || this.#isGroup || this.#tabs.chosen === EDITING;
     if (this.#box.hidden) {
-      const hadFocus = this.#box.contains(document.activeElement) || document.activeElement === this.#box;
-      if (hadFocus)
-        /** @type {HTMLElement | null} */ (document.querySelector("#robots [tabindex='0']"))?.focus();
+      if (hadFocus) rowOf(before)?.focus();
       this.#box.replaceChildren();
       return;
     }
@@ -232,6 +232,12 @@ export class Inspector {
     scrollWithin(box, row, box.querySelector("thead").offsetHeight);
   }
 }
+
+/** The row of a robot in the list, where the focus goes from its card. */
+const rowOf = (id) =>
+  /** @type {HTMLElement | null} */ (
+    document.querySelector(`#robots .robot[data-robot="${CSS.escape(id)}"]`)
+  );
 
 function costOf(robot, track) {
   const delay = delayOf(track);

@@ -13,7 +13,7 @@ const onPage = pagesFor();
 /** Keeps all that is announced from now on; returns what reads it. */
 async function listen(page) {
   await page.evaluate(() => {
-    const told = /** @type {any} */ ((window).told = []);
+    const told = /** @type {any} */ (window.told = []);
     const announcer = document.getElementById("announcer");
     new MutationObserver(() => told.push(announcer.textContent)).observe(announcer, { childList: true });
   });
@@ -63,6 +63,7 @@ test("the Robot tool says where the arrow keys have led, and whether a robot fit
     });
     await page.waitForSelector("#placing:not([hidden])");
     const { hears } = await listen(page);
+    await page.focus("#scene");
     await page.keyboard.press("ArrowDown");
     await hears(/^Start at \(\d+(\.\d+)?, \d+(\.\d+)?\) m/);
     await page.keyboard.press("Enter");
