@@ -218,10 +218,8 @@ test("robots are added with the mouse, duplicated and deleted", async () => {
   await onPage(async (page) => {
     await editing(page);
     await tool(page, "robot");
-    await drag(page, [
-      { x: 4.4, y: 1.6 },
-      { x: 6.6, y: 2.6 },
-    ]);
+    await press(page, { x: 4.4, y: 1.6 });
+    await press(page, { x: 6.6, y: 2.6 });
     const added = { id: "robot-3", ...ROBOT, start: { x: 4.5, y: 1.5 }, goal: { x: 6.5, y: 2.5 } };
     assert.deepEqual(await robotAt(page, 2), added);
     await press(page, { x: 4.5, y: 4.5 });
@@ -368,8 +366,8 @@ test("a fault is shown at the robot's field and in the scene until it is repaire
       assert.ok((await marks({ x: 0.5, y: 4.5 })) > 20);
       assert.match(await page.innerText("#edited-robot option:checked"), /⚠ robot-2/);
       await page.fill('[data-pointer="/robots/1/radius"]', "0.3");
-      await page.waitForSelector("#problem", { state: "hidden" });
-      assert.equal(await page.locator("#panel-edit [aria-invalid]").count(), 0);
+      await page.waitForSelector("#panel-edit [aria-invalid]", { state: "detached" });
+      assert.equal(await page.isVisible("#problem"), false);
       assert.equal(await marks({ x: 0.5, y: 4.5 }), 0);
       await drag(page, [
         { x: 0.5, y: 0.5 },
@@ -383,8 +381,8 @@ test("a fault is shown at the robot's field and in the scene until it is repaire
         { x: 4.5, y: 0.5 },
         { x: 6.5, y: 2.5 },
       ]);
-      await page.waitForSelector("#problem", { state: "hidden" });
-      assert.equal(await page.locator("#robot-start[aria-invalid]").count(), 0);
+      await page.waitForSelector("#robot-start[aria-invalid]", { state: "detached" });
+      assert.equal(await page.isVisible("#problem"), false);
       assert.equal((await pressPlan(page)).status, "solved");
     },
     { allowed: REFUSED },
@@ -456,10 +454,8 @@ test("a request is made from scratch: a new map, walls, robots, a plan", async (
       assert.equal((await judged).status(), 422);
       assert.equal(await page.isVisible("#problem"), false, "that robots are yet to come is no fault");
       await tool(page, "robot");
-      await drag(page, [
-        { x: 0.75, y: 1.25 },
-        { x: 3.25, y: 1.25 },
-      ]);
+      await press(page, { x: 0.75, y: 1.25 });
+      await press(page, { x: 3.25, y: 1.25 });
       const [robot] = (await hook(page, "request")).robots;
       assert.deepEqual([robot.id, robot.goal], ["robot-1", { x: 3.25, y: 1.25 }]);
       assert.equal((await pressPlan(page)).status, "solved");

@@ -29,6 +29,10 @@ const boxOf = (page, selector) => page.locator(selector).boundingBox();
 
 async function assertRoom(page, state) {
   await twoFrames(page);
+  const cut = await page.$$eval(".tabs, .request-head, .player, .toolbar", (boxes) =>
+    boxes.filter((box) => box.scrollWidth > box.clientWidth + 1).map((box) => box.className),
+  );
+  assert.deepEqual(cut, [], `${state}: cut off`);
   const { height: window } = page.viewportSize();
   const { height } = await boxOf(page, "#scene");
   assert.ok(height >= LEAST_SHARE * window - 1, `${state}: the scene has ${height} of ${window} pixels`);
