@@ -25,13 +25,13 @@ export class EditPanel {
   /** Which robot is edited, see RobotChoice. */
   choice;
 
-  /** `opening`: see Opening. */
-  constructor(session, stage, tabs, opening) {
+  /** `opening`: see Opening; `inShort`: see PlacingPanel. */
+  constructor(session, stage, tabs, opening, inShort) {
     this.choice = new RobotChoice(session);
     const actions = new RobotActions(session, this.choice);
     const zones = new ZoneChoice(session);
     const zoneTool = new ZoneTool(session, stage, zones);
-    this.#toolbox = new Toolbox(session, stage, tabs, this.choice, actions, zoneTool);
+    this.#toolbox = new Toolbox(session, stage, tabs, this.choice, actions, zoneTool, inShort);
     new ZoneForm(session, zones);
     new ObstacleForm(session, stage);
     zones.onChange(() => zones.index !== null && (byId("zones").open = true));
@@ -72,11 +72,11 @@ export class Toolbox {
   #placing;
 
   /** `choice`: see RobotChoice; `actions`: see RobotActions. */
-  constructor(session, stage, tabs, choice, actions, zoneTool) {
+  constructor(session, stage, tabs, choice, actions, zoneTool, inShort) {
     this.#stage = stage;
     this.#tabs = tabs;
     const robotTool = new RobotTool(session, stage, choice, actions);
-    this.#placing = new PlacingPanel(session, robotTool, (name) => this.pick(name));
+    this.#placing = new PlacingPanel(session, robotTool, (name) => this.pick(name), inShort);
     this.#tools = {
       select: { label: "Select", key: "V", tool: new SelectTool(session, stage, choice, actions) },
       wall: { label: "Wall", key: "W", tool: new DrawTool(session, stage, true) },

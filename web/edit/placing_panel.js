@@ -3,7 +3,6 @@
 
 import { numbersOfNext, setDefault } from "../model/edit_request.js";
 import { misplaced } from "../model/placement.js";
-import { inShort } from "../panels/summary.js";
 import { byId, setText } from "../ui/dom.js";
 import { count } from "../ui/format.js";
 import { NumberField } from "../ui/number_field.js";
@@ -17,13 +16,15 @@ export class PlacingPanel {
   /** @type {any} */
   #tool = null; // the tool of the Edit tab, null on another tab
   #robotTool;
+  #inShort;
   #isAsked = false; // the plan, by this panel
   #refusal = ""; // why the last click placed nothing
   #checked = /** @type {any} */ ({ scene: null, wrong: [] }); // see misplaced
 
-  /** `robotTool`: see RobotTool; `pick(name)` selects a tool. */
-  constructor(session, robotTool, pick) {
+  /** `robotTool`: see RobotTool; `pick(name)` selects a tool; `inShort(answer, options)` is a plan in words. */
+  constructor(session, robotTool, pick, inShort) {
     this.#session = session;
+    this.#inShort = inShort;
     this.#robotTool = robotTool;
     this.#radius = new NumberField({
       label: "Radius",
@@ -62,7 +63,7 @@ export class PlacingPanel {
     this.#box.hidden = isIdle && !hasResult;
     if (this.#box.hidden) return;
     byId("placing-result").hidden = !hasResult;
-    setText(byId("placing-result"), hasResult ? inShort(answer, request.options) : "");
+    setText(byId("placing-result"), hasResult ? this.#inShort(answer, request.options) : "");
     byId("placing-text").hidden = hasResult;
     this.#place.hidden = places;
     byId("placing-radius").hidden = this.#plan.hidden = !places;

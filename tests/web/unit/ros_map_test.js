@@ -86,12 +86,6 @@ test("a map that is turned by quarters is turned, about its lower-left corner", 
   }
 });
 
-test("a map that is turned by another angle is imported unturned, with a warning", () => {
-  const described = readRosYaml(YAML.replace("0.0]", "0.5]"));
-  assert.equal(described.quarterTurns, 0);
-  assert.match(described.warnings.join(), /turns the map by 0.5 rad.*no quarter turn.*ignored/);
-});
-
 test("missing thresholds default to map_server's, with a warning", () => {
   const described = readRosYaml(YAML.replace(/occupied.*\n/, "").replace(/free.*\n/, ""));
   assert.deepEqual([described.occupiedThresh, described.freeThresh], [0.65, 0.196]);

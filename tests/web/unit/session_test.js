@@ -88,7 +88,7 @@ test("undo brings an edited request back after another one was opened", () => {
   heard.length = 0;
   session.undo();
   assert.deepEqual([session.request, session.name, session.edited], [edited, "one", true]);
-  assert.ok(heard.includes('request {"opened":true}'));
+  assert.ok(heard.includes('request {"opened":true,"restored":true}'));
   assert.equal(heard.at(-1), 'announcement "Undone: one is open again."');
   session.undo();
   assert.equal(session.text, OPENED.text);
