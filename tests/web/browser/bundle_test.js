@@ -21,7 +21,7 @@ async function planAndClear(page) {
 
 /** The files of the page among the addresses asked for, without the service's answers. */
 const filesIn = (requested) =>
-  [...new Set(requested)].filter((address) => !new URL(address).pathname.startsWith("/v1/"));
+  [...new Set(requested)].filter((address) => !/^\/(v1\/|healthz$)/.test(new URL(address).pathname));
 
 test("the bundle is a page, four scripts, a style sheet, an icon and a worker, immutable but for the page", async () => {
   await onBundle(async (page, { requested, url }) => {

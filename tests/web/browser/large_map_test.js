@@ -49,9 +49,9 @@ const centreOf = (column, row) => ({
 test("a map of ROS of four million cells is imported as an image, drawn and planned on", async () => {
   await onPage(async (page) => {
     await WAYS["through the file dialog"](page, { "building.yaml": YAML, "building.pgm": building() });
-    await page.waitForSelector("dialog[open]");
-    assert.match(await page.innerText("dialog"), /2000 × 2000 pixels of 50 mm/);
-    await page.click("dialog .primary");
+    await page.waitForSelector("dialog.form-dialog[open]");
+    assert.match(await page.innerText("dialog.form-dialog"), /2000 × 2000 pixels of 50 mm/);
+    await page.click("dialog.form-dialog .primary");
     await page.waitForFunction(() => window.fleetplan.request?.map.image);
     const { image } = (await hook(page, "request")).map;
     assert.ok(image.png.length < 300_000, "a compressed image, not millions of letters");
