@@ -49,6 +49,7 @@ test("a zone is drawn and reshaped with the mouse, and the plan goes around it",
     assert.deepEqual(await zones(page), [{ id: "zone-1", type: "blocked", polygon }]);
     const around = await pressPlan(page);
     assert.ok(around.makespan > direct + 0.3, `${around.makespan} after ${direct}`);
+    await page.click('label[for="tool-zone"]'); // which ended with Plan
     await drag(page, { x: 6, y: 4 }, { x: 7, y: 5 });
     assert.deepEqual((await zones(page))[0].polygon[2], { x: 7, y: 5 });
     await drag(page, { x: 5, y: 1 }, { x: 5, y: 0 });
@@ -87,7 +88,7 @@ test("keys alone draw a zone, place it, set its speed, and delete it", async () 
       assert.deepEqual([slow.type, slow.linear_speed], ["speed", 0.25]);
       const answer = await pressPlan(page);
       assert.equal(answer.status, "solved");
-      await page.focus("#scene");
+      await page.keyboard.press("z"); // the tool ended with Plan
       await page.keyboard.press("Delete");
       assert.equal(await zones(page), undefined);
     },
