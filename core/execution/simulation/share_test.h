@@ -1,9 +1,10 @@
 #pragma once
 
-// Whether the share of bad runs is at most an aim, told from runs one after the other: a sequential test with
-// looks at fixed numbers of runs, and the exact binomial tails that it compares.
+// Whether the share of bad runs is at most an aim. A sequential test judges the runs so far, at fixed numbers
+// of runs. It compares exact binomial tails.
 
 #include <cstddef>
+#include <cstdint>
 
 namespace fleetplan::core {
 
@@ -18,8 +19,8 @@ struct ShareInterval {
   double high = 1.0;
 };
 
-/// The interval of Clopper and Pearson for the share, of which `count` of `runs` > 0 trials are known: it
-/// covers the true one with at least this probability, in (0, 1).
+/// The interval of Clopper and Pearson for the share, after `count` of `runs` > 0 trials. It covers the true
+/// share with a probability of at least `confidence`, in (0, 1).
 ShareInterval clopper_pearson(std::size_t count, std::size_t runs, double confidence);
 
 /// What the share of bad runs shall be.
@@ -28,15 +29,15 @@ struct ShareAim {
   double confidence = 0.95;  // in (0, 1): the chance that no verdict is wrong
 };
 
-/// The test of several candidates, each of which has its own runs. By the union bound over the candidates and
-/// their looks, all verdicts together are right with the confidence of the aim:
+/// The test of several candidates, each with its own runs. All verdicts together are right with the
+/// confidence of the aim, by the union bound over the candidates and their looks:
 ///
 ///   met:     P(X <= bad) <= e if the share were that of the aim
 ///   not met: P(X >= bad) <= e
 ///   e = (1 - confidence) / (2 candidates looks)
 class ShareTest {
  public:
-  enum class Verdict { open, met, not_met };
+  enum class Verdict : std::uint8_t { open, met, not_met };
 
   /// The first look; each further one is after twice as many runs, and the last one after all.
   static constexpr std::size_t kFirstLook = 50;

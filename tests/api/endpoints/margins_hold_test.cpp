@@ -1,6 +1,6 @@
-// What POST /v1/margins promises: of random fleets of all kinds, plans that are `met` are executed again with
-// other seeds, and at most the share that the confidence allows has more bad runs than the aim. The same
-// check finds a test whose error is planted.
+// What POST /v1/margins promises. Plans of random fleets that are `met` are executed again with other seeds.
+// At most the share that the confidence allows may have more bad runs than the aim. The same check finds a
+// test whose error is planted.
 //
 // FLEETPLAN_MARGIN_FLEETS and FLEETPLAN_MARGIN_RUNS make it longer; FLEETPLAN_FIRST_SEED begins elsewhere.
 
@@ -85,9 +85,8 @@ Json margins_body(support::Dice& dice, double aim) {
   return body;
 }
 
-/// Makes stops so frequent that about this share of the runs of the plan with the request's own options is
-/// bad, and tries no other margins: a test that is wrong is wrong there. Returns whether there is such a
-/// rate.
+/// Makes stops so frequent that about this share of runs is bad with the request's own options. Tries no other
+/// margins: a test that is wrong is wrong there. Returns whether there is such a rate.
 bool calibrate(Json& body, double target) {
   body["policy"] = body["policy"] == "absorb_waits" ? "absorb_waits" : "open_loop";
   body.erase("max_delay");

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "core/moves/safe_plan.h"
 #include "tests/core/support/planning.h"
 #include "tests/support/random_problem.h"
 
@@ -34,6 +35,34 @@ TEST(Repair, RaisesAFailedRobotAndReplansOnlyConflictingRobots) {
   EXPECT_GT(p.reservations.trajectory(0)->cost, 7.0) << "it waits for robot 1";
   EXPECT_DOUBLE_EQ(p.reservations.trajectory(2)->cost, 2.0) << "it conflicted with no robot";
   expect_safe(p.reservations);
+}
+
+TEST(Repair, GoesOnFromASafePlanThatWasMadeMeanwhile) {
+  Planning p = blocked_entrance();
+  Random random(7);
+  int looks = 0;
+  Pace pace;
+  pace.is_due = [&] { return ++looks == 2; };
+  pace.on_stop = [&](const OrderingResult& so_far) {
+    EXPECT_EQ(so_far.unsolved, (Robots{0, 1})) << "robot 2 has a plan";
+    make_safe(p.state, so_far.unsolved, so_far.given_up, Effort::none, p.never, p.progress);
+    for (const std::size_t robot : so_far.unsolved) EXPECT_TRUE(p.reservations.stays(robot));
+    return true;
+  };
+  const OrderingResult result = repair_all(p.state, {2, 0, 1}, p.steps, random, p.never, p.progress, pace);
+  EXPECT_GT(looks, 2) << "it went on";
+  EXPECT_TRUE(result.unsolved.empty());
+  for (std::size_t robot = 0; robot < 3; ++robot) EXPECT_TRUE(p.reservations.trajectory(robot));
+  expect_safe(p.reservations);
+}
+
+TEST(Repair, EndsWhereItsPaceDoesNotGoOn) {
+  Planning p = blocked_entrance();
+  Random random(7);
+  const Pace pace{[](const OrderingResult&) { return false; }, [] { return true; }};
+  const OrderingResult result = repair_all(p.state, {2, 0, 1}, p.steps, random, p.never, p.progress, pace);
+  EXPECT_EQ(result.unsolved, (Robots{2, 0, 1}));
+  EXPECT_TRUE(result.cut_off);
 }
 
 TEST(Repair, GivesUpARobotWithoutAPathAmongRobotsThatStay) {
