@@ -49,6 +49,7 @@ Service StubService::service() {
   return {.plan = endpoint,
           .validate = endpoint,
           .simulate = endpoint,
+          .margins = endpoint,
           .advance = endpoint,
           .dependencies = endpoint,
           .retime = endpoint,
