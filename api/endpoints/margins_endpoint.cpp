@@ -49,7 +49,7 @@ core::FoundMargins found_margins(const MarginsRequest& request, const core::Stop
 }
 
 /// Returns the answer of POST /v1/plan with the best plan.
-Reply answer_with(core::BestPlan& best, MarginsRequest& request, const StageTimes& times,
+Reply answer_with(core::TestedPlan& best, MarginsRequest& request, const StageTimes& times,
                   const RequestContext& context) {
   const core::MadePlan& made = best.made;
   if (made.task.open) tell_choices(made.task.open->goals, request.plan.received);

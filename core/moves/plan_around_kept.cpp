@@ -90,7 +90,7 @@ class PlanningAroundKept {
 
   /// Repairs the plan. Returns whether all robots are planned.
   bool repaired() {
-    const Pace pace{[this](const OrderingResult& so_far) { return keep_safe_plan(so_far); }, {}};
+    const RepairPace pace{[this](const OrderingResult& so_far) { return keep_safe_plan(so_far); }, {}};
     const OrderingResult ordering = repair_around(state_, order(), random_, stop_, progress_, pace);
     progress_.count_by_priorities(others_);
     result_.attempts = ordering.attempts;

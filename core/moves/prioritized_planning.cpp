@@ -97,7 +97,7 @@ class PrioritizedPlanning {
         progress_(progress),
         order_(initial_order(state.instance(), movers, random)),
         steps_(state.reservations(), random, progress),
-        stop_(time.first_part),
+        stop_(restarts() ? time.first_part : time.keeping),
         begin_(Clock::now()),
         half_(after_share(time.all, budget::kShareBeforeSafePlanOfCrowd)),
         next_look_(after_share(time.all, budget::kShareOfLook)) {
@@ -147,7 +147,7 @@ class PrioritizedPlanning {
     const auto reordering = state_.instance().options().reordering;
     if (reordering == PlanOptions::Reordering::none) return plan_each_once(state_, order_, stop_, progress_);
     const OnStop keep_plan = [this](const OrderingResult& so_far) { return keep_safe_plan(so_far); };
-    const Pace pace{keep_plan, [this] { return !best_ && next_look_.met(); }};
+    const RepairPace pace{keep_plan, [this] { return !best_ && next_look_.met(); }};
     if (restarts()) {
       return plan_with_restarts(state_, order_, random_, stop_, progress_, keep_plan);
     }
@@ -186,7 +186,7 @@ class PrioritizedPlanning {
     const bool is_crowded = so_far.attempts > 1 + std::ssize(order_) / kRobotsPerFailure;
     const auto is_late = [&] { return time_.keeping.deadline() - Clock::now() <= time_left_to_plan(so_far); };
     const bool is_due = is_crowded ? half_.met() : time_.first_part.met() && !ends_soon(so_far);
-    if (!is_late() && !is_due) {
+    if (!is_late() && !is_due && !stop_.met()) {
       next_look_ = after_share(time_.all, budget::kShareOfLook);
       return true;
     }
@@ -195,7 +195,7 @@ class PrioritizedPlanning {
     const bool is_in_time = !is_late();
     const FleetReservations::Snapshot before = state_.reservations().snapshot();
     keep_if_better(so_far.unsolved, so_far.given_up, Effort::brief,
-                   is_in_time && !is_crowded ? before_the_rest(left) : time_.keeping);
+                   is_in_time && !is_crowded ? time_.all.until(before_the_rest(left)) : time_.keeping);
     if (best_->plan.staying.empty()) return false;
     const bool may_still_end = left < time_.all.deadline() - Clock::now();
     if (is_in_time && may_still_end) state_.reservations().restore(before);
@@ -209,9 +209,8 @@ class PrioritizedPlanning {
   }
 
   /// When a safe plan has to be there if planning, which needs so long, goes on afterwards.
-  StopCondition before_the_rest(Clock::duration left) const {
-    const StopCondition part = after_share(time_.all, budget::kShareOfKeeping);
-    return part.until(std::min(part.deadline(), time_.all.deadline() - left));
+  Clock::time_point before_the_rest(Clock::duration left) const {
+    return std::min(after_share(time_.all, budget::kShareOfKeeping).deadline(), time_.all.deadline() - left);
   }
 
   /// Whether steps are worth a try: after a failure, or where they do not take long to prepare.

@@ -63,7 +63,7 @@ class Repair {
  public:
   /// `steps`: null if there are none.
   Repair(PlanState& state, PriorityOrder order, FleetSteps* steps, Random& random, const StopCondition& stop,
-         ProgressReport& progress, const Pace& pace)
+         ProgressReport& progress, const RepairPace& pace)
       : state_(state),
         reservations_(state.reservations()),
         any_yields_(any_yields(state.instance())),
@@ -426,7 +426,7 @@ class Repair {
   Random& random_;
   const StopCondition& stop_;
   ProgressReport& progress_;
-  const Pace& pace_;
+  const RepairPace& pace_;
   std::vector<std::int64_t> rank_;  // by robot; a smaller rank is a higher priority
   std::int64_t highest_rank_ = 0;
   std::int64_t lowest_rank_;
@@ -444,14 +444,14 @@ class Repair {
 }  // namespace
 
 OrderingResult repair_all(PlanState& state, const PriorityOrder& order, FleetSteps& steps, Random& random,
-                          const StopCondition& stop, ProgressReport& progress, const Pace& pace) {
+                          const StopCondition& stop, ProgressReport& progress, const RepairPace& pace) {
   return *repair_unless(kAnyNumber, state, order, steps, random, stop, progress, pace);
 }
 
 std::optional<OrderingResult> repair_unless(std::int64_t max_failures, PlanState& state,
                                             const PriorityOrder& order, FleetSteps& steps, Random& random,
                                             const StopCondition& stop, ProgressReport& progress,
-                                            const Pace& pace) {
+                                            const RepairPace& pace) {
   progress.next_attempt();
   Repair repair(state, order, &steps, random, stop, progress, pace);
   repair.postpone_all();
@@ -459,7 +459,7 @@ std::optional<OrderingResult> repair_unless(std::int64_t max_failures, PlanState
 }
 
 OrderingResult repair_around(PlanState& state, const PriorityOrder& order, Random& random,
-                             const StopCondition& stop, ProgressReport& progress, const Pace& pace) {
+                             const StopCondition& stop, ProgressReport& progress, const RepairPace& pace) {
   progress.next_attempt();
   Repair repair(state, order, nullptr, random, stop, progress, pace);
   repair.postpone_those_without_trajectory();

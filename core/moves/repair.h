@@ -16,7 +16,7 @@
 namespace fleetplan::core {
 
 /// Who decides whether repairs go on.
-struct Pace {
+struct RepairPace {
   /// Asked when the stop condition is met. Without it, repairs end then.
   OnStop on_stop;
   /// Asked before each robot: whether to ask `on_stop` although the stop condition is not met. Optional.
@@ -45,17 +45,18 @@ struct Pace {
 ///
 /// If failures may have no end, all robots are planned in `steps`.
 OrderingResult repair_all(PlanState& state, const PriorityOrder& order, FleetSteps& steps, Random& random,
-                          const StopCondition& stop, ProgressReport& progress, const Pace& pace = {});
+                          const StopCondition& stop, ProgressReport& progress, const RepairPace& pace = {});
 
 /// Plans as repair_all() does. Returns none as soon as this many attempts have failed.
 std::optional<OrderingResult> repair_unless(std::int64_t max_failures, PlanState& state,
                                             const PriorityOrder& order, FleetSteps& steps, Random& random,
                                             const StopCondition& stop, ProgressReport& progress,
-                                            const Pace& pace);
+                                            const RepairPace& pace);
 
 /// Plans the robots of `order` as repair_all() does, but some of them already follow trajectories. They keep
 /// these until a robot with a higher priority needs their way. Robots are not planned in steps.
 OrderingResult repair_around(PlanState& state, const PriorityOrder& order, Random& random,
-                             const StopCondition& stop, ProgressReport& progress, const Pace& pace = {});
+                             const StopCondition& stop, ProgressReport& progress,
+                             const RepairPace& pace = {});
 
 }  // namespace fleetplan::core

@@ -102,6 +102,7 @@ class SafePlanner {
 
   std::size_t count_crossing() const {
     std::vector<bool> crosses(state_.instance().size(), false);
+    // Bounded: pairs of robots that meet.
     for (const std::size_t robot : staying_) {
       for (const std::size_t other : reservations_.robots_crossing_place(robot)) {
         crosses[other] = crosses[other] || reservations_.trajectory(other);

@@ -214,7 +214,7 @@ class MarginSearch {
   /// Keeps the plan of a candidate, unless its dependencies are missing.
   void keep(std::size_t candidate, MadePlan made, const StopCondition& share) {
     TriedMargins& tried = found_.tried[candidate];
-    BestPlan plan{std::move(made), std::nullopt};
+    TestedPlan plan{std::move(made), std::nullopt};
     if (needs_dependencies()) {
       DependencyRules rules = task_.dependencies;
       for (double& margin : rules.margins) margin = std::max(margin, tried.margins.inflation);
@@ -268,7 +268,7 @@ class MarginSearch {
     TriedMargins& tried = found_.tried[candidate];
     const auto is_decided = [&] { return tried.status == Status::met || tried.status == Status::not_met; };
     if (is_decided() || tried.runs >= runs) return;
-    const BestPlan& plan = *made_[candidate];
+    const TestedPlan& plan = *made_[candidate];
     const Problem& problem = plan.made.task.problem;
     std::vector<RobotPlan> plans = plan.made.plan.plans;
     add_commitments(problem.robots(), plans);
@@ -329,9 +329,9 @@ class MarginSearch {
   SharedTurn turn_;
   const StopCondition stop_;  // shares the turn
   const ShareTest test_;
-  std::vector<std::optional<BestPlan>> made_;  // by candidate: the plans that are kept
-  std::vector<Tally> tallies_;                 // by candidate
-  std::vector<bool> unplanned_;                // by robot: it has no plan with the base
+  std::vector<std::optional<TestedPlan>> made_;  // by candidate: the plans that are kept
+  std::vector<Tally> tallies_;                   // by candidate
+  std::vector<bool> unplanned_;                  // by robot: it has no plan with the base
   FoundMargins found_;
 };
 

@@ -96,7 +96,7 @@ struct TriedMargins {
 };
 
 /// The plan of the best candidate, as it was executed.
-struct BestPlan {
+struct TestedPlan {
   MadePlan made;
   std::optional<Dependencies> dependencies;  // with the policy `dependencies`
 };
@@ -104,7 +104,7 @@ struct BestPlan {
 struct FoundMargins {
   std::vector<TriedMargins> tried;  // by candidate
   std::optional<std::size_t> best;
-  std::optional<BestPlan> plan;  // of `best`
+  std::optional<TestedPlan> plan;  // of `best`
   std::optional<VerifyReport>
       rejected;                    // of a plan that the check rejects, a bug: then there is nothing else
   RobotList unplanned;             // robots that have no plan with the base, either

@@ -85,8 +85,8 @@ Json margins_body(support::Dice& dice, double aim) {
   return body;
 }
 
-/// Makes stops so frequent that about this share of runs is bad with the request's own options. Tries no other
-/// margins: a test that is wrong is wrong there. Returns whether there is such a rate.
+/// Makes stops so frequent that about this share of runs is bad with the request's own options. Tries no
+/// other margins: a test that is wrong is wrong there. Returns whether there is such a rate.
 bool calibrate(Json& body, double target) {
   body["policy"] = body["policy"] == "absorb_waits" ? "absorb_waits" : "open_loop";
   body.erase("max_delay");
@@ -122,7 +122,7 @@ Json calibrated_body(support::Dice& dice, double aim, double times) {
 }
 
 /// The share of bad runs of a plan that was found, with other disturbances.
-double share_again(const core::MarginTask& task, const core::BestPlan& best, const core::Margins& margins,
+double share_again(const core::MarginTask& task, const core::TestedPlan& best, const core::Margins& margins,
                    std::size_t runs) {
   const core::Problem& problem = best.made.task.problem;
   std::vector<core::RobotPlan> plans = best.made.plan.plans;

@@ -41,7 +41,7 @@ TEST(Repair, GoesOnFromASafePlanThatWasMadeMeanwhile) {
   Planning p = blocked_entrance();
   Random random(7);
   int looks = 0;
-  Pace pace;
+  RepairPace pace;
   pace.is_due = [&] { return ++looks == 2; };
   pace.on_stop = [&](const OrderingResult& so_far) {
     EXPECT_EQ(so_far.unsolved, (Robots{0, 1})) << "robot 2 has a plan";
@@ -59,7 +59,7 @@ TEST(Repair, GoesOnFromASafePlanThatWasMadeMeanwhile) {
 TEST(Repair, EndsWhereItsPaceDoesNotGoOn) {
   Planning p = blocked_entrance();
   Random random(7);
-  const Pace pace{[](const OrderingResult&) { return false; }, [] { return true; }};
+  const RepairPace pace{[](const OrderingResult&) { return false; }, [] { return true; }};
   const OrderingResult result = repair_all(p.state, {2, 0, 1}, p.steps, random, p.never, p.progress, pace);
   EXPECT_EQ(result.unsolved, (Robots{2, 0, 1}));
   EXPECT_TRUE(result.cut_off);

@@ -134,8 +134,11 @@ TEST(PartialPlan, RemovesPlansThatCrossAnUnplannedRobotWhenStopped) {
 }
 
 TEST(PartialPlan, ReturnsRobotsToTheirPathsWhenTheOneInTheirWayHasLeft) {
-  Planning p(hall(), {robot_at(3.5, 3.5).to(3.5, 4.5), robot_at(0.5, 3.5).to(6.5, 3.5)});
-  p.reservations.follow(1, through({{0.5, 3.5}, {6.5, 3.5}}, 50.0));
+  // The corridor has no way around robot 0.
+  Planning p(support::ascii_map({"###.###",  //
+                                 "......."}),
+             {robot_at(3.5, 0.5).to(3.5, 1.5), robot_at(0.5, 0.5).to(6.5, 0.5)});
+  p.reservations.follow(1, through({{0.5, 0.5}, {6.5, 0.5}}, 50.0));
   const PartialPlan partial = make_partial_plan(p.state, {0}, {}, p.never, p.progress);
   EXPECT_TRUE(partial.unplanned.empty());
   ASSERT_TRUE(p.reservations.trajectory(1));
