@@ -151,8 +151,8 @@ Handler metrics(const Backend& backend) {
 
 /// Returns a file of the page.
 Handler page(const Backend& backend) {
-  return [&files = backend.files,
-          policy = content_security_policy(backend.settings.frame_ancestors)](Exchange& exchange) -> api::Reply {
+  return [&files = backend.files, policy = content_security_policy(backend.settings.frame_ancestors)](
+             Exchange& exchange) -> api::Reply {
     auto file = files.read(exchange.parameter);
     if (!file) {
       return problem_reply(ErrorCode::not_found,

@@ -33,7 +33,7 @@ struct Settings {
   std::chrono::milliseconds drain_delay{0};         // time before the drain: not ready, but serving
   std::optional<AccessToken> token = std::nullopt;  // required for all requests except health and readiness
   std::vector<std::string> cors_origins = {};       // see CrossOrigin
-  std::vector<std::string> frame_ancestors = {};    // origins whose pages may show the page in a frame; * for any
+  std::vector<std::string> frame_ancestors = {};    // origins whose pages may frame the page; * for any
   std::vector<AddressRange> trusted_proxies = {};   // proxies whose X-Forwarded-For names the client
   std::vector<std::string> allowed_hosts = {};      // see AllowedHosts
   std::string log_level = "info";
