@@ -184,15 +184,16 @@ test("a finger finds a robot within 24 pixels, a mouse does not", async () => {
         return [found, at.get(found).radius];
       });
       assert.ok(radius < 10, "robots are small");
-      const { x, y } = await windowPoint(
-        page,
-        await page.evaluate((each) => window.fleetplan.poseOf(each), id),
-      );
+      const pose = await page.evaluate((each) => window.fleetplan.poseOf(each), id);
+      const { x, y } = await windowPoint(page, pose);
       await page.mouse.click(x + 20, y);
       assert.equal(await hook(page, "selected"), null);
       await page.touchscreen.tap(x + 20, y);
       await page.waitForFunction((each) => window.fleetplan.selected === each, id);
-      await page.touchscreen.tap(x, y - 22);
+      await page.waitForSelector("#inspector:not([hidden])");
+      await twoFrames(page);
+      const now = await windowPoint(page, pose); // the page scrolls to the card
+      await page.touchscreen.tap(now.x, now.y - 22);
       await page.waitForFunction(() => window.fleetplan.selected === null);
     },
     { options: PHONE },
