@@ -41,6 +41,7 @@ const BEYOND_SCHEMA = {
     "/zones/\\d+/robots/\\d+",
     "/tasks/\\d+/robots/\\d+",
   ),
+  empty: /^\/disturbance$/, // nothing is disturbed
   bad_map_row: /^\/map\/rows\/\d+$/, // rows of different lengths
   bad_image: /^(\/map\/image|\/zones\/\d+\/mask)\/(pgm|png)$/,
   bad_movingai: /^\/map\/movingai$/,
@@ -57,6 +58,9 @@ const BEYOND_SCHEMA = {
     "/obstacles/\\d+/motion/\\d+/t",
     "/disturbance/(speed|turn|start_delay)/max",
     "/trace",
+    "/(runs|aim)", // fewer than the aim needs
+    "/try/(interval_margin|inflation|wait_before_move)(/\\d+)?", // lists that do not ascend
+    "/try", // too many combinations
     "/plans/\\d+/visits/\\d+/(choice|place)", // of another goal
     "(/robots/\\d+/goal(s/\\d+)?|/(goals|tasks)/\\d+/goals/\\d+)/(choice|place)", // of no pose of any_of; beyond the tolerance
     "(/robots?(/\\d+(/goal(s/\\d+)?)?)?|/(goals|tasks)/\\d+/goals/\\d+)?/metadata",
@@ -77,9 +81,9 @@ const BEYOND_SCHEMA = {
   wrong_type: /^\/dependencies$/, // null, with the policy that needs them
   unknown_value: /^\/progress\/\d+\/order_id$/, // of an order that differs from the order of base
   // `goal` of an action that is no wait; `reverse` of an action that is no translation; serial number of no robot; what
-  // is left of no service
+  // is left of no service; waits that a policy does not have
   unknown_key:
-    /\/((committed|previous|actions)\/\d+\/(goal|reverse|profile)|(serial_numbers|map_ids|manufacturers)\/[^/]*|states\/\d+\/service_left)$/,
+    /\/((committed|previous|actions)\/\d+\/(goal|reverse|profile)|(serial_numbers|map_ids|manufacturers)\/[^/]*|states\/\d+\/service_left|try\/wait_before_move)$/,
   unknown_obstacle: /^\/unavoidable\/\d+\/obstacle$/,
   discontinuity: /^\/(robots\/\d+\/(committed|previous)|plans\/\d+\/actions)\/\d+\/\w+$/,
   speed: anyOf(

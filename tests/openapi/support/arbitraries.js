@@ -23,7 +23,7 @@ function integers(schema) {
   const least = whole(schema.minimum);
   const most = whole(schema.maximum);
   return fc.oneof(
-    fc.bigInt({ min: least, max: 20n }),
+    fc.bigInt({ min: least, max: least > 0n ? least + 20n : 20n }),
     fc.bigInt({ min: least, max: most }),
     fc.constantFrom(least, most),
   );
