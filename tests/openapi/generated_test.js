@@ -160,7 +160,14 @@ const KINDS = {
 
 /** Problems that a time budget may cause where all else is right, on a machine that is very busy. */
 const UNFINISHED = {
-  check_unfinished: ["/v1/validate", "/v1/dependencies", "/v1/simulate", "/v1/margins", "/v1/matrix", "/v1/assign"],
+  check_unfinished: [
+    "/v1/validate",
+    "/v1/dependencies",
+    "/v1/simulate",
+    "/v1/margins",
+    "/v1/matrix",
+    "/v1/assign",
+  ],
   parse_unfinished: Object.keys(KINDS),
 };
 
