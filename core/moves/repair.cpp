@@ -123,12 +123,21 @@ class Repair {
         if (!stop_.met()) break;
       }
     }
+    // Repairs may have given up robots that have a plan in steps.
+    if (kept_steps_ && result_.given_up.size() > kept_steps_->given_up.size()) follow_kept_steps();
+    if (kept_steps_) result_.steps.reset();  // the plan is not in steps
     result_.unsolved = unsolved();
     result_.cut_off = result_.cut_off || !result_.unsolved.empty();
     return std::move(result_);
   }
 
  private:
+  /// A plan in steps of all robots that were not hopeless by then.
+  struct KeptSteps {
+    FleetReservations::Snapshot reservations;
+    std::vector<std::size_t> given_up;
+  };
+
   bool goes_on() {
     state_.memory().relieve();
     const bool is_due = !kept_steps_ && pace_.is_due && pace_.is_due();
@@ -180,17 +189,18 @@ class Repair {
     result_.steps = steps_->follow(order_, result_.hopeless, stop_);
     result_.cut_off = result_.cut_off || result_.steps == StepsOutcome::cut_off;
     if (result_.steps != StepsOutcome::followed) return;
-    kept_steps_ = reservations_.snapshot();
+    kept_steps_ = KeptSteps{reservations_.snapshot(), result_.hopeless};
     reservations_.restore(std::move(before));
   }
 
-  /// All robots but the hopeless ones follow the plan that was kept. Returns true.
+  /// All robots but those that were hopeless by then follow the plan that was kept. Returns true.
   bool follow_kept_steps() {
     ++result_.attempts;
-    reservations_.restore(std::move(*kept_steps_));
+    reservations_.restore(std::move(kept_steps_->reservations));
+    result_.given_up = std::move(kept_steps_->given_up);
+    result_.hopeless = result_.given_up;
     kept_steps_.reset();
     pending_.clear();
-    result_.given_up = result_.hopeless;
     return true;
   }
 
@@ -434,7 +444,7 @@ class Repair {
   std::vector<int> asks_;                     // by robot: how often others were asked to make way for it
   std::vector<bool> cannot_make_way_;         // by robot: it was asked, and failed
   std::optional<std::size_t> keeps_its_way_;  // a robot that gives way to nobody
-  std::optional<FleetReservations::Snapshot> kept_steps_;  // a plan of all robots in steps
+  std::optional<KeptSteps> kept_steps_;
   EjectionSearch ejection_;
   const std::int64_t expansions_;                           // before these repairs
   std::set<std::pair<std::int64_t, std::size_t>> pending_;  // rank, robot
