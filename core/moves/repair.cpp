@@ -138,6 +138,7 @@ class Repair {
     std::vector<std::size_t> given_up;
   };
 
+  /// Whether repairs go on; if so, robots are pending.
   bool goes_on() {
     state_.memory().relieve();
     const bool is_due = !kept_steps_ && pace_.is_due && pace_.is_due();
@@ -150,7 +151,7 @@ class Repair {
     result_.unsolved = unsolved();
     if (!pace_.on_stop(result_)) return false;
     resume_if_changed();
-    return true;
+    return !pending_.empty();
   }
 
   /// Others may have planned robots meanwhile, or stopped some.

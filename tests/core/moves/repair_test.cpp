@@ -56,6 +56,23 @@ TEST(Repair, GoesOnFromASafePlanThatWasMadeMeanwhile) {
   expect_safe(p.reservations);
 }
 
+TEST(Repair, EndsIfAllRobotsWerePlannedMeanwhile) {
+  Planning p = blocked_entrance();
+  Random random(7);
+  int looks = 0;
+  RepairPace pace;
+  pace.is_due = [&] { return ++looks == 2; };
+  pace.on_stop = [&](const OrderingResult& so_far) {
+    return repair_around(p.state, so_far.unsolved, random, p.never, p.progress).unsolved.empty();
+  };
+  const OrderingResult result = repair_all(p.state, {2, 0, 1}, p.steps, random, p.never, p.progress, pace);
+  EXPECT_EQ(looks, 2) << "nobody was left to plan";
+  EXPECT_TRUE(result.unsolved.empty());
+  EXPECT_FALSE(result.cut_off);
+  for (std::size_t robot = 0; robot < 3; ++robot) EXPECT_TRUE(p.reservations.trajectory(robot));
+  expect_safe(p.reservations);
+}
+
 TEST(Repair, EndsWhereItsPaceDoesNotGoOn) {
   Planning p = blocked_entrance();
   Random random(7);
