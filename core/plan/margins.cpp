@@ -57,6 +57,7 @@ struct Tally {
 std::vector<Position> places(const std::vector<Robot>& robots, const std::vector<RobotPlan>& plans,
                              bool at_end) {
   std::vector<Position> all;
+  all.reserve(robots.size());
   for (const Robot& robot : robots) all.push_back(robot.start.position);
   if (!at_end) return all;
   for (const RobotPlan& plan : plans) {
@@ -259,6 +260,7 @@ class MarginSearch {
     }
     std::sort(order.begin(), order.end());
     std::vector<std::size_t> candidates;
+    candidates.reserve(order.size());
     for (const auto& [value, candidate] : order) candidates.push_back(candidate);
     return candidates;
   }
