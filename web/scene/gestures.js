@@ -89,6 +89,11 @@ export function watchGestures(element, handlers) {
   element.addEventListener("pointerleave", ({ pointerType }) => {
     if (pointerType === "mouse") handlers.hover(null); // fingers leave after each touch
   });
+  element.addEventListener("touchend", (event) => {
+    if (!event.cancelable) return; // the page scrolls
+    event.preventDefault(); // the browser's click would meet what has moved under the finger since
+    if (element.tabIndex >= 0) element.focus({ preventScroll: true });
+  });
   element.addEventListener("mousedown", (event) => {
     if (event.button === 1) event.preventDefault(); // browsers would begin to scroll
   });
