@@ -193,7 +193,9 @@ TEST(MarginsThatHold, HoldWithOtherSeeds) {
   RecordProperty("wrong", tally.wrong);
   EXPECT_GE(tally.met, static_cast<int>(fleets / 6));
   EXPECT_LE(tally.wrong, tally.met / 20);
-  // With an error of 1/2 in each look, plans that do not hold are met.
+  // With an error of 1/2 in each look, plans that do not hold are met: by one fleet in ten, so that only many
+  // tell.
+  if (support::kSanitized) return;
   const Tally planted = execute_again(fleets, runs, 0.5);
   RecordProperty("planted_met", planted.met);
   RecordProperty("planted_wrong", planted.wrong);
