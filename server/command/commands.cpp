@@ -69,6 +69,11 @@ int write_output(const std::string& name, const std::string& text, const Streams
   return kSolved;
 }
 
+int refuse(const InputFault& fault, const Streams& streams) {
+  streams.err << fault.line << '\n';
+  return kBadInput;
+}
+
 int fail(const Streams& streams, int code, const std::string& message) {
   streams.err << "fleetplan: " << api::printable(message) << '\n';
   return code;
@@ -281,6 +286,8 @@ struct Arguments {
   std::string example;
   std::string map;
   std::string robots;
+  std::string scenario;
+  ScenarioFleet fleet;
 };
 
 int show_examples(const std::string& name, const Service& service, const Streams& streams) {
@@ -314,10 +321,23 @@ void add_commands(CLI::App& app, std::string_view word, Arguments& arguments) {
     sub->add_option("--svg", request.svg, "File of a picture of the plan, SVG");
     sub->add_option("--png", request.png, "File of a picture of the plan, PNG");
   }
-  CLI::App* map =
-      app.add_subcommand("map2request", "Make a request from a map.yaml of ROS and a table of robots");
-  map->add_option("map", arguments.map, "File map.yaml, beside its image")->required();
-  map->add_option("--robots", arguments.robots, "Table of the robots, CSV")->required();
+  CLI::App* map = app.add_subcommand(
+      "map2request", "Make a request from a map of ROS and a table of robots, or from a MovingAI scenario");
+  map->add_option("map", arguments.map, "File map.yaml of ROS, beside its image, or .map of MovingAI")
+      ->required();
+  CLI::Option* robots =
+      map->add_option("--robots", arguments.robots, "With a map.yaml: table of the robots, CSV");
+  CLI::Option* scenario =
+      map->add_option("--scenario", arguments.scenario, "With a .map: file .scen of starts and goals");
+  scenario->excludes(robots);
+  ScenarioFleet& fleet = arguments.fleet;
+  const auto add_number = [&](const char* flag, auto& number, const char* text) {
+    map->add_option(flag, number, text)->needs(scenario)->check(CLI::PositiveNumber)->capture_default_str();
+  };
+  add_number("--count", fleet.count, "The most robots of a scenario");
+  add_number("--radius", fleet.radius, "Their radius, metres");
+  add_number("--linear-speed", fleet.linear_speed, "Their linear speed, m/s");
+  add_number("--angular-speed", fleet.angular_speed, "Their angular speed, rad/s");
   map->add_option("-o,--output", request.output, "File of the request instead of the standard output");
   if (word == "map2request") add_limit_flags(*map, request.limits);
   app.add_subcommand("examples", "List the example requests, or print one")
@@ -358,7 +378,15 @@ std::optional<int> run_command(std::vector<std::string> arguments,
   auto fault = ignored_environment(sub);
   if (!fault) fault = settle_limits(sub, request.limits);
   if (fault) return fail(streams, kBadInput, *fault);
+  if (word == "map2request" && !parsed.scenario.empty()) {
+    return scenario_to_request(parsed.map, parsed.scenario, parsed.fleet, request.output, request.limits,
+                               streams);
+  }
   if (word == "map2request") {
+    if (parsed.robots.empty()) {
+      return fail(streams, kBadInput,
+                  "map2request needs --robots (of a map of ROS) or --scenario (of MovingAI)");
+    }
     return map_to_request(parsed.map, parsed.robots, request.output, request.limits, streams);
   }
   request.endpoint = make_service().*command->endpoint;

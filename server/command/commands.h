@@ -3,7 +3,7 @@
 // The program without a server:
 //
 // - its commands, their input and output, faults of input, and exit codes,
-// - requests from files of ROS,
+// - requests from files of ROS, and of the MovingAI benchmarks,
 // - and the probe of a running server.
 
 #include <cstddef>
@@ -44,6 +44,9 @@ struct InputFault {
 
 /// Makes a fault. `line`: the line in the file, from 1; 0: the file as a whole.
 InputFault input_fault(const std::string& file, std::size_t line, const std::string& detail);
+
+/// Prints a fault; returns the exit code.
+int refuse(const InputFault& fault, const Streams& streams);
 
 /// Reads all of a file, or of `in` for "-". A file of more than `max_bytes` is not read to its end.
 api::Result<std::string, InputFault> read_file(
@@ -97,5 +100,21 @@ api::Result<RosMapFile, InputFault> read_ros_map(const std::string& yaml, std::i
 /// the service would refuse, with the file and the line of each fault. Returns the exit code.
 int map_to_request(const std::string& yaml, const std::string& robots, const std::string& output,
                    const api::Limits& limits, const Streams& streams);
+
+/// The robots that are made of the entries of a scenario.
+struct ScenarioFleet {
+  std::size_t count = 100;  // at most
+  double radius = 0.4;      // metres
+  double linear_speed = 1.0;
+  double angular_speed = 3.14;
+};
+
+/// `fleetplan map2request` for a map and a scenario of the MovingAI benchmarks: each of the first entries
+/// that are possible becomes a robot, at the centres of the cells; a cell is 1 m wide. An entry is skipped if
+/// its disk touches a wall or overlaps an earlier one, and a note tells how many were. Refuses like
+/// map_to_request. Returns the exit code.
+int scenario_to_request(const std::string& map_file, const std::string& scenario_file,
+                        const ScenarioFleet& fleet, const std::string& output, const api::Limits& limits,
+                        const Streams& streams);
 
 }  // namespace fleetplan::server

@@ -265,11 +265,6 @@ InputFault in_files(const api::Fault& fault, const RosMapFile& map, const RobotT
   return input_fault(map.yaml, line == map.lines.end() ? 0 : line->second, fault.detail);
 }
 
-int refuse(const InputFault& fault, const Streams& streams) {
-  streams.err << fault.line << '\n';
-  return kBadInput;
-}
-
 int refuse(const api::RequestError& error, const RosMapFile& map, const RobotTable& table,
            const Streams& streams) {
   if (error.faults.empty()) return refuse(input_fault(map.yaml, 0, error.detail), streams);

@@ -235,5 +235,77 @@ TEST_F(Map2Request, IsBoundedForHostileFiles) {
   EXPECT_EQ(command({"map2request", path("map.yaml")}).code, kBadInput);
 }
 
+/// A free map of 6 x 4 cells but for a wall, and entries of it.
+constexpr const char* kMovingAiMap = "type octile\nheight 4\nwidth 6\nmap\n......\n..@...\nG.TS..\n......\n";
+constexpr const char* kScenario =
+    "version 1\n"
+    "0\tmy map.map\t6\t4\t0\t0\t5\t0\t5\n"    // along the top row
+    "0\tmy map.map\t6\t4\t2\t1\t5\t3\t5.5\n"  // starts in a wall
+    "\n"
+    "3\tmy map.map\t6\t4\t0\t0\t5\t2\t5.8\r\n"   // starts where the first one does
+    "3\tmy map.map\t6\t4\t5\t3\t0\t3\t5.0\r\n";  // along the bottom row
+
+class MovingAi : public Map2Request {
+ protected:
+  MovingAi() { write("my map.map", kMovingAiMap); }
+
+  Outcome convert(const std::string& scenario, const std::vector<std::string>& flags = {}) {
+    write("one.scen", scenario);
+    std::vector<std::string> all{"map2request", path("my map.map"), "--scenario", path("one.scen")};
+    all.insert(all.end(), flags.begin(), flags.end());
+    return command(all);
+  }
+};
+
+TEST_F(MovingAi, MakesARequestOfTheEntriesThatArePossible) {
+  const Outcome made = convert(kScenario);
+  EXPECT_EQ(made.code, kSolved);
+  EXPECT_THAT(made.err,
+              AllOf(HasSubstr("1 entries were skipped because a disk of this radius touches a wall, 1 "),
+                    HasSubstr("only 2 robots")));
+  const Json expected = Json::parse(R"({
+      "map": {"movingai": "type octile\nheight 4\nwidth 6\nmap\n......\n..@...\nG.TS..\n......\n"},
+      "robot_defaults": {"radius": 0.4, "linear_speed": 1, "angular_speed": 3.14},
+      "robots": [{"id": "r1", "start": {"x": 0.5, "y": 3.5}, "goal": {"x": 5.5, "y": 3.5}},
+                 {"id": "r2", "start": {"x": 5.5, "y": 0.5}, "goal": {"x": 0.5, "y": 0.5}}]})");
+  EXPECT_EQ(Json::parse(made.out), expected);
+  EXPECT_EQ(command({"plan"}, made.out).code, kSolved);
+}
+
+TEST_F(MovingAi, HasAsManyRobotsOfThisKindAsAreWanted) {
+  const Outcome made = convert(
+      kScenario, {"--count", "1", "--radius", "0.3", "--linear-speed", "2", "--angular-speed", "0.5"});
+  EXPECT_EQ(made.code, kSolved);
+  EXPECT_EQ(made.err, "");
+  const Json request = Json::parse(made.out);
+  EXPECT_EQ(request["robots"].size(), 1);
+  EXPECT_EQ(request["robot_defaults"],
+            Json::parse(R"({"radius": 0.3, "linear_speed": 2, "angular_speed": 0.5})"));
+  EXPECT_EQ(convert(kScenario, {"--max-robots=1"}).code, kBadInput);
+  // A disk that is wider than its cell does not fit beside the edge.
+  const Outcome wide = convert(kScenario, {"--radius", "0.6"});
+  EXPECT_EQ(wide.code, kBadInput);
+  EXPECT_THAT(wide.err, HasSubstr("no entry can be used: 4 entries were skipped"));
+}
+
+TEST_F(MovingAi, RefusesOtherFilesWithTheirPlace) {
+  expect_refused(convert("version 1\n0 my map.map 6 4 0 0 5 5\n"), "one.scen:2",
+                 "bucket, map, width, height");
+  expect_refused(convert("0\tm\t6\t4\t0\t0\t5\t-1\t5\n"), "one.scen:1", "bucket, map, width, height");
+  expect_refused(convert("0\tm\t6\t5\t0\t0\t5\t0\t5\n"), "one.scen:1", "6 x 5 cells, but the map has 6 x 4");
+  expect_refused(convert("\n0\tm\t6\t4\t0\t4\t5\t0\t5\n"), "one.scen:2", "column 0, row 4");
+  expect_refused(convert("99999999999999999999\tm\t6\t4\t0\t0\t5\t0\t5\n"), "one.scen:1", "bucket");
+  expect_refused(convert(""), "one.scen", "no entry can be used");
+  write("my map.map", "type octile\nheight 2\nwidth 3\nmap\n...\n.x.\n");
+  expect_refused(convert(kScenario), "my map.map", "\"x\"");
+  write("my map.map", "\xff\xfe");
+  expect_refused(convert(kScenario), "my map.map", "Line 1");
+  write("my map.map", kMovingAiMap);
+  EXPECT_THAT(convert(kScenario, {"--max-cells=10"}).err, HasSubstr("10"));
+  EXPECT_THAT(command({"map2request", path("my map.map")}).err, HasSubstr("--scenario"));
+  EXPECT_EQ(convert(kScenario, {"--robots", path("robots.csv")}).code, kBadInput);
+  EXPECT_EQ(convert(kScenario, {"--radius", "-1"}).code, kBadInput);
+}
+
 }  // namespace TEST_FILE
 }  // namespace fleetplan::server
