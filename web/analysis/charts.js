@@ -1,5 +1,6 @@
 // Small charts. Each has its figures in words for screen readers. Sizes in CSS pixels.
 
+import { change, percent } from "../model/simulation.js";
 import { element, svgElement } from "../ui/dom.js";
 
 const WIDTH = 320;
@@ -82,6 +83,44 @@ export function lineChart(title, values, inWords) {
   svg.append(
     svgElement("polyline", { points: points.join(" "), class: "chart-curve" }),
     text(inWords(most), { x: WIDTH - RIGHT, y: 9, class: "chart-name" }),
+  );
+  return element("figure", { class: "chart" }, element("figcaption", { textContent: title }), svg);
+}
+
+/**
+ * What margins cost, {cost, share, isBest}: `share` of executions with a collision (up) by `cost` (right). A line joins
+ * those that are better than all cheaper ones.
+ */
+export function costCurve(title, points) {
+  const [height, left, bottom] = [120, 46, 18];
+  const costs = points.map(({ cost }) => cost);
+  const [least, most] = [Math.min(...costs), Math.max(...costs)];
+  const x = ({ cost }) => left + ((cost - least) / Math.max(1e-9, most - least)) * (WIDTH - left - RIGHT);
+  const y = ({ share }) => 6 + (1 - share) * (height - bottom - 12);
+  const ordered = [...points].sort((one, other) => one.cost - other.cost);
+  const words = ordered.map((point) => `${change(point.cost)}: ${percent(point.share)}`).join("; ");
+  const svg = svgElement("svg", {
+    viewBox: `0 0 ${WIDTH} ${height}`,
+    class: "quantiles",
+    role: "img",
+    "aria-label": `${title}: ${words}`,
+  });
+  const better = ordered.filter(({ share }, at) => ordered.slice(0, at).every((each) => each.share > share));
+  const corners = better.map((point) => `${x(point).toFixed(1)},${y(point).toFixed(1)}`);
+  svg.append(
+    text("100 %", { x: left - 4, y: y({ share: 1 }), class: "chart-name" }),
+    text("0 %", { x: left - 4, y: y({ share: 0 }), class: "chart-name" }),
+    text(change(least), { x: left, y: height - 7, class: "chart-unit" }),
+    text(change(most), { x: WIDTH - RIGHT, y: height - 7, class: "chart-name" }),
+    svgElement("polyline", { points: corners.join(" "), class: "chart-curve" }),
+    ...ordered.map((point) =>
+      svgElement("circle", {
+        cx: x(point).toFixed(1),
+        cy: y(point).toFixed(1),
+        r: point.isBest ? 5 : 3,
+        class: point.isBest ? "chart-tick" : "chart-band",
+      }),
+    ),
   );
   return element("figure", { class: "chart" }, element("figcaption", { textContent: title }), svg);
 }

@@ -16,6 +16,7 @@ import { showMoment } from "../scene/pair_view.js";
 import { count, metres, seconds } from "../ui/format.js";
 import { quantileRows, shareBar } from "./charts.js";
 import { button, choicePart, numberPart } from "./fields.js";
+import { RobustSection } from "./robust_section.js";
 
 const MAX_ROBOTS = 12; // in the chart of delays
 const MAX_LISTED = 8;
@@ -38,6 +39,7 @@ export class SimulationSection {
   #run = button("Simulate", () => this.#simulate(), { class: "primary" });
   #status = element("p", { class: "facts", role: "status" });
   #results = element("div", { class: "results" });
+  #robust;
   /** @type {any} */
   #plan = null; // the answer that is simulated, while one of its runs is played
   /** @type {any} */
@@ -68,6 +70,11 @@ export class SimulationSection {
       this.#results,
     );
     this.#form.policy.input.addEventListener("change", () => this.#refresh());
+    const useDependencies = () => {
+      this.#form.policy.input.value = "dependencies";
+      this.#refresh();
+    };
+    this.#robust = new RobustSection(page, () => this.#validForm(), useDependencies);
     this.#session.on("answer", () => this.#onAnswer());
     this.#refresh();
   }
@@ -81,7 +88,10 @@ export class SimulationSection {
     const { answer } = this.#session;
     if (answer === this.#played && this.#session.hasPlan) return;
     this.#page.ghosts.show(null);
-    if (answer !== this.#plan) this.#results.replaceChildren();
+    if (answer !== this.#plan) {
+      this.#robust.reset();
+      this.#results.replaceChildren();
+    }
     this.#plan = this.#played = null;
     this.#refresh();
   }
@@ -93,12 +103,17 @@ export class SimulationSection {
     setText(this.#status, ready ? "" : "Plan first: a simulation executes a plan many times.");
   }
 
-  async #simulate() {
+  /** The values of the form; null, and the page says why, if one is invalid. */
+  #validForm() {
     const wrong = Object.values(this.#form).find(
       ({ field, input }) => !field.hidden && !input.reportValidity(),
     );
-    if (wrong) return;
-    const form = this.#values;
+    return wrong ? null : this.#values;
+  }
+
+  async #simulate() {
+    const form = this.#validForm();
+    if (form === null) return;
     const plan = this.#plan ?? this.#session.answer;
     await this.#asking(plan, async () => {
       const simulated = await this.#ask(plan, form, null);
@@ -138,6 +153,7 @@ export class SimulationSection {
   }
 
   #show(plan, form, simulated) {
+    this.#robust.reset();
     const { runs, collision_share, deadlock_share, robots, pairs, warnings } = simulated;
     const delays = mostDelayed(robots, MAX_ROBOTS).map(({ robot, delay }) => ({ name: robot, ...delay }));
     const whole = ["makespan", "flowtime"].filter((name) => simulated[name] !== null);
@@ -151,6 +167,7 @@ export class SimulationSection {
       rows.length > 0 ? quantileRows("Increase over the plan", rows, (value) => `+${percent(value)}`) : "",
       delays.length > 0 ? quantileRows("Robot delays", delays, seconds) : "",
       this.#pairs(pairs),
+      collision_share > 0 || deadlock_share > 0 ? this.#robust.element : "",
       this.#collisions(plan, form, simulated.first_collisions),
       this.#player(plan, form, runs),
       ...warnings.map((warning) => element("p", { class: "facts", textContent: warning })),

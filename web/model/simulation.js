@@ -77,3 +77,8 @@ export function percent(share) {
   const value = share * 100;
   return `${Number(value.toFixed(value < 10 ? 1 : 0))} %`;
 }
+
+/** A change in percent, with its sign. */
+export function change(share) {
+  return share < 0 ? `\u2212${percent(-share)}` : `+${percent(share)}`;
+}

@@ -70,6 +70,15 @@ export async function simulate(text, progress) {
 }
 
 /**
+ * Finds margins that hold, see POST /v1/margins; `progress({candidate, candidates, stage, runs, bad})` is called
+ * meanwhile. Resolves to what was found; `signal` may abort it.
+ */
+export async function margins(text, signal, progress) {
+  const wanted = ["met", "options", "tried", "advice", "warnings"];
+  return stream("v1/margins", text, signal, { progress }, { last: "margins", wanted });
+}
+
+/**
  * The dependencies by which robots can execute a plan at their own pace: {dependencies, tight}. They are the plan's
  * own, or the service makes them.
  */

@@ -89,6 +89,76 @@ test("with dependencies the same delays cause no collision", async () => {
   });
 });
 
+test("a plan is made robust: margins are found, shown with their cost, and used", async () => {
+  await onPage(async (page) => {
+    const before = await planned(page, "crossing");
+    const request = await hook(page, "request");
+    await openAnalysis(page);
+    await page.getByRole("button", { name: "Simulate" }).click();
+    const start = page.getByRole("button", { name: "Make it robust" });
+    await start.focus();
+    const asked = page.waitForRequest((sent) => sent.url().endsWith("/v1/margins"));
+    await page.keyboard.press("Enter");
+    const body = JSON.parse((await asked).postData());
+    assert.deepEqual(
+      [body.policy, body.aim, body.disturbance.speed.min],
+      ["absorb_waits", { collisions: 0.01 }, 0.8],
+    );
+    assert.deepEqual(body.request.robots, request.robots);
+    const depend = page.getByRole("button", { name: "Try with dependencies" }); // no margin lasts without them
+    await depend.focus();
+    await page.keyboard.press("Enter");
+    const use = page.getByRole("button", { name: "Use this plan" });
+    await use.waitFor();
+    assert.equal(await page.getByLabel("Policy").inputValue(), "dependencies");
+    assert.match(
+      await page.innerText(".robust .share-words >> nth=0"),
+      /^Holds with: .* between robots\. Flowtime [+\u2212]/,
+    );
+    const rows = await page.$$eval(".robust tbody tr", (all) =>
+      all.map((row) => [row.className, ...[...row.children].map((cell) => cell.textContent)]),
+    );
+    assert.match(rows[0].join("; "), /^; none; \d+ % of \d+; \+0 %$/);
+    assert.equal(rows.filter(([name]) => name === "best").length, 1);
+    assert.equal(await page.locator(".robust circle").count(), rows.length);
+    assert.match(
+      await page.getAttribute(".robust svg", "aria-label"),
+      /cost of the margins: .*\+0 %: \d+ %; /,
+    );
+
+    await use.click();
+    await page.waitForFunction(() => window.fleetplan.request.options?.interval_margin > 0);
+    const answer = await hook(page, "answer");
+    assert.equal(answer.verified, true);
+    assert.notEqual(answer.flowtime, before.flowtime);
+    await page.getByRole("button", { name: "Simulate" }).click();
+    await page.waitForSelector(".share-words");
+    assert.ok(parseFloat(await page.innerText(".share-words b")) <= 1);
+    await page.keyboard.press("Control+z");
+    await page.waitForFunction((flowtime) => window.fleetplan.answer?.flowtime === flowtime, before.flowtime);
+    assert.deepEqual(await hook(page, "request"), request);
+  });
+});
+
+test("the search for margins can be stopped", async () => {
+  await onPage(async (page) => {
+    await planned(page, "crossing");
+    await openAnalysis(page);
+    await page.getByRole("button", { name: "Simulate" }).click();
+    const start = page.locator(".robust button").first();
+    await start.waitFor();
+    await page.route("**/v1/margins", () => {}); // no answer
+    await start.click();
+    await page.getByRole("button", { name: "Stop", exact: true }).click();
+    assert.equal(await start.innerText(), "Make it robust");
+    assert.equal(await page.innerText(".robust [role=status]"), "");
+    await page.unroute("**/v1/margins");
+    await page.getByLabel("Accepted collisions").fill("");
+    await start.click();
+    assert.equal(await start.innerText(), "Make it robust", "a number is missing");
+  });
+});
+
 test("a tab that does not load says so and is loaded again on demand", async () => {
   await onPage(
     async (page) => {
