@@ -101,6 +101,21 @@ api::Result<RosMapFile, InputFault> read_ros_map(const std::string& yaml, std::i
 int map_to_request(const std::string& yaml, const std::string& robots, const std::string& output,
                    const api::Limits& limits, const Streams& streams);
 
+/// The files that a request is made of.
+struct RequestFiles {
+  std::string map;                       // name of the file
+  std::string robots;                    // name of the file
+  std::vector<std::size_t> robot_lines;  // line in it, from 1, by robot
+  /// Returns a fault of the map at its place. Without it, the fault is of the whole file.
+  std::function<InputFault(const api::Fault&)> in_map = nullptr;
+  std::vector<std::string> notes = {};  // lines for people, if the request is written
+};
+
+/// Writes a request that is made of files, with its notes and warnings. Refuses what the service would
+/// refuse, with the file and the line of each fault. Returns the exit code.
+int write_request(const std::string& body, const RequestFiles& files, const std::string& output,
+                  const api::Limits& limits, const Streams& streams);
+
 /// The robots that are made of the entries of a scenario.
 struct ScenarioFleet {
   std::size_t count = 100;  // at most

@@ -240,23 +240,9 @@ std::string request_of(const RosMapFile& map, const RobotTable& table) {
   return json.take() + '\n';
 }
 
-/// Returns the fault of a robot with its line and, if it is one, its column.
-InputFault fault_of_robot(const api::Fault& fault, const RobotTable& table) {
-  const std::string_view steps = std::string_view(fault.pointer).substr(kOfRobots.size());
-  std::size_t robot = 0;
-  const auto [end, error] = std::from_chars(steps.data(), steps.data() + steps.size(), robot);
-  const std::size_t line = error == std::errc() && robot < table.lines.size() ? table.lines[robot] : 0;
-  std::string column(end, steps.data() + steps.size());
-  if (!column.empty()) column.erase(0, 1);
-  std::replace(column.begin(), column.end(), '/', '_');
-  return input_fault(table.file, line, column.empty() ? fault.detail : column + ": " + fault.detail);
-}
-
-/// Returns a fault of the request at the place in the files that it comes from.
-InputFault in_files(const api::Fault& fault, const RosMapFile& map, const RobotTable& table) {
+/// Returns a fault of the map at the place in the files that it comes from.
+InputFault in_map(const api::Fault& fault, const RosMapFile& map) {
   const std::string_view pointer = fault.pointer;
-  if (pointer.starts_with(kOfRobots)) return fault_of_robot(fault, table);
-  if (!pointer.starts_with("/map")) return input_fault(table.file, 0, fault.detail);
   if (!pointer.starts_with(kOfImage)) return input_fault(map.yaml, 0, fault.detail);
   std::string_view member = pointer.substr(kOfImage.size());
   member = member.substr(0, member.find('/'));
@@ -265,10 +251,29 @@ InputFault in_files(const api::Fault& fault, const RosMapFile& map, const RobotT
   return input_fault(map.yaml, line == map.lines.end() ? 0 : line->second, fault.detail);
 }
 
-int refuse(const api::RequestError& error, const RosMapFile& map, const RobotTable& table,
-           const Streams& streams) {
-  if (error.faults.empty()) return refuse(input_fault(map.yaml, 0, error.detail), streams);
-  for (const api::Fault& fault : error.faults) refuse(in_files(fault, map, table), streams);
+/// Returns the fault of a robot with its line and, if it is one, its column.
+InputFault in_robots(const api::Fault& fault, const RequestFiles& files) {
+  const std::string_view steps = std::string_view(fault.pointer).substr(kOfRobots.size());
+  std::size_t robot = 0;
+  const auto [end, error] = std::from_chars(steps.data(), steps.data() + steps.size(), robot);
+  const auto& lines = files.robot_lines;
+  const std::size_t line = error == std::errc() && robot < lines.size() ? lines[robot] : 0;
+  std::string column(end, steps.data() + steps.size());
+  if (!column.empty()) column.erase(0, 1);
+  std::replace(column.begin(), column.end(), '/', '_');
+  return input_fault(files.robots, line, column.empty() ? fault.detail : column + ": " + fault.detail);
+}
+
+InputFault in_files(const api::Fault& fault, const RequestFiles& files) {
+  const std::string_view pointer = fault.pointer;
+  if (pointer.starts_with(kOfRobots)) return in_robots(fault, files);
+  if (!pointer.starts_with("/map")) return input_fault(files.robots, 0, fault.detail);
+  return files.in_map ? files.in_map(fault) : input_fault(files.map, 0, fault.detail);
+}
+
+int refuse(const api::RequestError& error, const RequestFiles& files, const Streams& streams) {
+  if (error.faults.empty()) return refuse(input_fault(files.map, 0, error.detail), streams);
+  for (const api::Fault& fault : error.faults) refuse(in_files(fault, files), streams);
   if (error.faults_total > error.faults.size()) {
     streams.err << "and " << error.faults_total - error.faults.size() << " more faults\n";
   }
@@ -277,22 +282,28 @@ int refuse(const api::RequestError& error, const RosMapFile& map, const RobotTab
 
 }  // namespace
 
+int write_request(const std::string& body, const RequestFiles& files, const std::string& output,
+                  const api::Limits& limits, const Streams& streams) {
+  core::Work work(core::Work::Bounds{});
+  const auto request = api::parse_request(body, limits, work);
+  if (!request) return refuse(request.failure(), files, streams);
+  for (const std::string& line : files.notes) streams.err << line << '\n';
+  for (const std::string& warning : request->warnings) {
+    const bool is_of_map = warning.find("map.image") != std::string::npos;
+    streams.err << input_fault(is_of_map ? files.map : files.robots, 0, warning).line << '\n';
+  }
+  return write_output(output, body, streams);
+}
+
 int map_to_request(const std::string& yaml, const std::string& robots, const std::string& output,
                    const api::Limits& limits, const Streams& streams) {
   const auto map = read_ros_map(yaml, streams.in);
   if (!map) return refuse(map.failure(), streams);
   const auto table = read_robot_table(robots, streams.in);
   if (!table) return refuse(table.failure(), streams);
-  const std::string body = request_of(*map, *table);
-  core::Work work(core::Work::Bounds{});
-  const auto request = api::parse_request(body, limits, work);
-  if (!request) return refuse(request.failure(), *map, *table, streams);
-  for (const std::string& line : map->ignored) streams.err << line << '\n';
-  for (const std::string& warning : request->warnings) {
-    const bool is_of_map = warning.find("map.image") != std::string::npos;
-    streams.err << input_fault(is_of_map ? yaml : robots, 0, warning).line << '\n';
-  }
-  return write_output(output, body, streams);
+  const auto place = [&](const api::Fault& fault) { return in_map(fault, *map); };
+  const RequestFiles files{yaml, robots, table->lines, place, map->ignored};
+  return write_request(request_of(*map, *table), files, output, limits, streams);
 }
 
 }  // namespace fleetplan::server

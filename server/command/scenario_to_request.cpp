@@ -2,8 +2,8 @@
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
+#include <istream>
 #include <optional>
-#include <ostream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,7 +13,7 @@
 #include "api/json/json_reader.h"
 #include "api/json/json_writer.h"
 #include "api/request/map/parse_map.h"
-#include "api/request/parse_request.h"
+#include "core/runtime/stop_condition.h"
 #include "server/command/commands.h"
 
 namespace fleetplan::server {
@@ -22,6 +22,10 @@ namespace {
 
 /// The most bytes of a map or a scenario: the largest published map has 3 MB, the longest scenario 7 MB.
 constexpr std::size_t kMaxFile = std::size_t{32} << 20;
+
+/// What is said if the work of reading is spent.
+constexpr const char* kTooLong =
+    "reading takes too long; give a smaller map, fewer lines, a smaller --count or a smaller --radius.";
 
 /// Metres by which disks may overlap after rounding, below the tolerance of the service.
 constexpr double kSlack = 1e-10;
@@ -85,20 +89,19 @@ struct ScenarioMap {
 };
 
 api::Result<ScenarioMap, InputFault> read_map(const std::string& file, const api::Limits& limits,
-                                              std::istream& in) {
+                                              std::istream& in, core::Work& work) {
   const auto text = read_file(file, in, std::min(kMaxFile, limits.max_body));
   if (!text) return text.failure();
   api::JsonWriter json;
   const std::string member =
       json.begin_object().member("movingai", std::string_view(*text)).end_object().take();
-  core::Work work = core::Work::unbounded();
   constexpr int kDepth = 2;
   auto document = api::read_json(member, kDepth, work);
   if (!document) return input_fault(file, 0, document.failure().detail);
   auto map = api::parse_map(api::JsonReader(*document), limits.max_cells);
   if (!map) {
     const std::vector<api::Fault> faults = document->faults.listed();
-    return input_fault(file, 0, faults.empty() ? "this is not a MovingAI map." : faults[0].detail);
+    return input_fault(file, 0, faults.empty() ? kTooLong : faults[0].detail);
   }
   return ScenarioMap{member, std::move(map->grid)};
 }
@@ -106,10 +109,18 @@ api::Result<ScenarioMap, InputFault> read_map(const std::string& file, const api
 /// Chooses the first entries whose disks fit between the walls and beside those chosen before.
 class EntryChooser {
  public:
-  EntryChooser(const ScenarioFleet& fleet, const core::OccupancyGrid& grid) : fleet_(fleet), grid_(grid) {}
+  EntryChooser(const ScenarioFleet& fleet, const core::OccupancyGrid& grid, core::Work& work)
+      : fleet_(fleet), grid_(grid), work_(work) {}
 
   bool is_full() const { return chosen_.size() >= fleet_.count; }
   const std::vector<Entry>& chosen() const { return chosen_; }
+  /// The lines of those chosen, in the file, from 1.
+  std::vector<std::size_t> lines() const {
+    std::vector<std::size_t> lines;
+    lines.reserve(chosen_.size());
+    for (const Entry& entry : chosen_) lines.push_back(entry.line);
+    return lines;
+  }
   std::size_t in_walls() const { return in_walls_; }
   std::size_t overlapping() const { return overlapping_; }
 
@@ -119,7 +130,9 @@ class EntryChooser {
     return {cell.column + kHalf, grid_.height() - cell.row - kHalf};
   }
 
-  void offer(const Entry& entry) {
+  /// Chooses the entry if it is possible. Returns false if the work of reading is spent.
+  bool offer(const Entry& entry) {
+    if (work_.met_after(work_of_entry())) return false;
     if (!fits(entry.start) || !fits(entry.goal)) {
       ++in_walls_;
     } else if (std::any_of(chosen_.begin(), chosen_.end(), [&](const Entry& other) {
@@ -129,9 +142,16 @@ class EntryChooser {
     } else {
       chosen_.push_back(entry);
     }
+    return true;
   }
 
  private:
+  /// The cells and the earlier entries that are looked at, at most.
+  std::size_t work_of_entry() const {
+    const double cells = std::min(4.0 * fleet_.radius * fleet_.radius, grid_.width() * grid_.height());
+    return 1 + 2 * (static_cast<std::size_t>(cells) + chosen_.size());
+  }
+
   bool fits(core::Cell cell) const {
     return core::obstacle_distance(grid_, centre(cell), fleet_.radius) >= fleet_.radius - kSlack;
   }
@@ -142,6 +162,7 @@ class EntryChooser {
 
   const ScenarioFleet& fleet_;
   const core::OccupancyGrid& grid_;
+  core::Work& work_;
   std::vector<Entry> chosen_;
   std::size_t in_walls_ = 0;
   std::size_t overlapping_ = 0;
@@ -176,7 +197,7 @@ std::optional<InputFault> choose_entries(const std::string& file, std::string_vi
                          "column " + std::to_string(cell.column) + ", row " + std::to_string(cell.row) +
                              " (both from 0) is outside the map.");
     }
-    chooser.offer(*entry);
+    if (!chooser.offer(*entry)) return input_fault(file, 0, kTooLong);
   }
   return std::nullopt;
 }
@@ -202,11 +223,12 @@ std::string request_of(const ScenarioMap& map, const ScenarioFleet& fleet, const
 int scenario_to_request(const std::string& map_file, const std::string& scenario_file,
                         const ScenarioFleet& fleet, const std::string& output, const api::Limits& limits,
                         const Streams& streams) {
-  const auto map = read_map(map_file, limits, streams.in);
+  core::Work work(core::Work::Bounds{});
+  const auto map = read_map(map_file, limits, streams.in, work);
   if (!map) return refuse(map.failure(), streams);
   const auto text = read_file(scenario_file, streams.in, kMaxFile);
   if (!text) return refuse(text.failure(), streams);
-  EntryChooser chooser(fleet, map->grid);
+  EntryChooser chooser(fleet, map->grid, work);
   if (const auto fault = choose_entries(scenario_file, *text, chooser, map->grid))
     return refuse(*fault, streams);
   const std::string skipped = std::to_string(chooser.in_walls()) +
@@ -215,27 +237,13 @@ int scenario_to_request(const std::string& map_file, const std::string& scenario
   if (chooser.chosen().empty()) {
     return refuse(input_fault(scenario_file, 0, "no entry can be used: " + skipped), streams);
   }
-  const std::string body = request_of(*map, fleet, chooser);
-  core::Work work(core::Work::Bounds{});
-  const auto request = api::parse_request(body, limits, work);
-  if (!request) {
-    const api::RequestError& error = request.failure();
-    if (error.faults.empty()) refuse(input_fault(scenario_file, 0, error.detail), streams);
-    for (const api::Fault& fault : error.faults) {
-      refuse(input_fault(scenario_file, 0, fault.pointer + ": " + fault.detail), streams);
-    }
-    return kBadInput;
-  }
-  if (chooser.in_walls() + chooser.overlapping() > 0) {
-    streams.err << input_fault(scenario_file, 0, skipped).line << '\n';
-  }
-  if (!chooser.is_full()) {
-    streams.err << input_fault(scenario_file, 0,
-                               "only " + std::to_string(chooser.chosen().size()) + " robots could be used.")
-                       .line
-                << '\n';
-  }
-  return write_output(output, body, streams);
+  RequestFiles files{map_file, scenario_file, chooser.lines()};
+  const auto note = [&](const std::string& detail) {
+    files.notes.push_back(input_fault(scenario_file, 0, detail).line);
+  };
+  if (chooser.in_walls() + chooser.overlapping() > 0) note(skipped);
+  if (!chooser.is_full()) note("only " + std::to_string(chooser.chosen().size()) + " robots could be used.");
+  return write_request(request_of(*map, fleet, chooser), files, output, limits, streams);
 }
 
 }  // namespace fleetplan::server

@@ -305,6 +305,25 @@ TEST_F(MovingAi, RefusesOtherFilesWithTheirPlace) {
   EXPECT_THAT(command({"map2request", path("my map.map")}).err, HasSubstr("--scenario"));
   EXPECT_EQ(convert(kScenario, {"--robots", path("robots.csv")}).code, kBadInput);
   EXPECT_EQ(convert(kScenario, {"--radius", "-1"}).code, kBadInput);
+  expect_refused(convert(kScenario, {"--linear-speed", "1e9"}), "one.scen", "linear_speed");
+}
+
+TEST_F(MovingAi, IsBoundedForLongScenarios) {
+  constexpr int kSide = 400;
+  std::string map = "type octile\nheight 400\nwidth 400\nmap\n";
+  std::string scenario;
+  for (int row = 0; row < kSide; ++row) {
+    map += std::string(kSide, '.') + '\n';
+    for (int column = 0; column < kSide; ++column) {
+      const std::string cell = std::to_string(column) + '\t' + std::to_string(row) + '\t';
+      scenario += "0\tm\t400\t400\t" + cell + cell + "0\n";
+    }
+  }
+  write("my map.map", map);
+  expect_refused(convert(scenario, {"--count", "1000000000"}), "one.scen", "takes too long");
+  std::string same;
+  for (int line = 0; line < kSide * kSide; ++line) same += "0\tm\t400\t400\t200\t200\t200\t200\t0\n";
+  expect_refused(convert(same, {"--radius", "199"}), "one.scen", "takes too long");
 }
 
 }  // namespace TEST_FILE
