@@ -24,6 +24,17 @@ Planning blocked_entrance() {
       {robot_at(7.5, 0.5).to(7.5, 1.5), robot_at(0.5, 1.5).to(7.5, 2.5), robot_at(0.5, 0.5).to(2.5, 0.5)});
 }
 
+/// A pace that asks before the second robot, once, and counts its looks.
+RepairPace asks_before_the_second(int& looks, OnStop on_stop) {
+  return {std::move(on_stop), [&looks] { return ++looks == 2; }};
+}
+
+void expect_all_planned(const Planning& p, const OrderingResult& result) {
+  EXPECT_TRUE(result.unsolved.empty());
+  for (std::size_t robot = 0; robot < 3; ++robot) EXPECT_TRUE(p.reservations.trajectory(robot));
+  expect_safe(p.reservations);
+}
+
 TEST(Repair, RaisesAFailedRobotAndReplansOnlyConflictingRobots) {
   Planning p = blocked_entrance();
   Random random(7);
@@ -41,36 +52,28 @@ TEST(Repair, GoesOnFromASafePlanThatWasMadeMeanwhile) {
   Planning p = blocked_entrance();
   Random random(7);
   int looks = 0;
-  RepairPace pace;
-  pace.is_due = [&] { return ++looks == 2; };
-  pace.on_stop = [&](const OrderingResult& so_far) {
+  const RepairPace pace = asks_before_the_second(looks, [&](const OrderingResult& so_far) {
     EXPECT_EQ(so_far.unsolved, (Robots{0, 1})) << "robot 2 has a plan";
     make_safe(p.state, so_far.unsolved, so_far.given_up, Effort::none, p.never, p.progress);
     for (const std::size_t robot : so_far.unsolved) EXPECT_TRUE(p.reservations.stays(robot));
     return true;
-  };
+  });
   const OrderingResult result = repair_all(p.state, {2, 0, 1}, p.steps, random, p.never, p.progress, pace);
   EXPECT_GT(looks, 2) << "it went on";
-  EXPECT_TRUE(result.unsolved.empty());
-  for (std::size_t robot = 0; robot < 3; ++robot) EXPECT_TRUE(p.reservations.trajectory(robot));
-  expect_safe(p.reservations);
+  expect_all_planned(p, result);
 }
 
 TEST(Repair, EndsIfAllRobotsWerePlannedMeanwhile) {
   Planning p = blocked_entrance();
   Random random(7);
   int looks = 0;
-  RepairPace pace;
-  pace.is_due = [&] { return ++looks == 2; };
-  pace.on_stop = [&](const OrderingResult& so_far) {
+  const RepairPace pace = asks_before_the_second(looks, [&](const OrderingResult& so_far) {
     return repair_around(p.state, so_far.unsolved, random, p.never, p.progress).unsolved.empty();
-  };
+  });
   const OrderingResult result = repair_all(p.state, {2, 0, 1}, p.steps, random, p.never, p.progress, pace);
   EXPECT_EQ(looks, 2) << "nobody was left to plan";
-  EXPECT_TRUE(result.unsolved.empty());
   EXPECT_FALSE(result.cut_off);
-  for (std::size_t robot = 0; robot < 3; ++robot) EXPECT_TRUE(p.reservations.trajectory(robot));
-  expect_safe(p.reservations);
+  expect_all_planned(p, result);
 }
 
 TEST(Repair, EndsWhereItsPaceDoesNotGoOn) {
