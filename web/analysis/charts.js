@@ -88,8 +88,8 @@ export function lineChart(title, values, inWords) {
 }
 
 /**
- * What margins cost, {cost, share, isBest}: `share` of executions with a collision (up) by `cost` (right). A line joins
- * those that are better than all cheaper ones.
+ * What margins cost, {cost, share, isBest}: `share` of executions that go wrong (up) by `cost` (right). A line joins those
+ * that are better than all cheaper ones.
  */
 export function costCurve(title, points) {
   const [height, left, bottom] = [120, 46, 18];

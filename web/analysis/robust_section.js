@@ -8,7 +8,7 @@ import { metres, seconds } from "../ui/format.js";
 import { costCurve, shareBar } from "./charts.js";
 import { button, numberPart } from "./fields.js";
 
-const FIRST_PERCENT = 1; // of the executions may have a collision
+const FIRST_PERCENT = 1; // of the executions may have a collision or a deadlock
 
 export class RobustSection {
   #page;
@@ -81,7 +81,7 @@ export class RobustSection {
       });
       if (this.#asking !== asking) return;
       this.#end();
-      this.#show(request, form, found);
+      this.#show(form, found);
     } catch (error) {
       if (this.#asking !== asking) return; // it was stopped
       this.reset();
@@ -106,33 +106,32 @@ export class RobustSection {
     this.#results.replaceChildren(...bars);
   }
 
-  #show(request, form, found) {
+  #show(form, found) {
     const candidates = candidatesOf(found);
     const { met, advice, warnings } = found;
     const best = candidates.find(({ isBest }) => isBest);
     const words = met
       ? `Holds with: ${marginsInWords(found.options)}. Flowtime ${change(best.cost)}, ` +
-        `${percent(best.share)} of ${best.runs} executions have a collision.`
+        `${percent(best.share)} of ${best.runs} executions have a collision or a deadlock.`
       : "No margins that were tried suffice.";
     this.#session.announce(words);
     this.#results.replaceChildren(
       element("p", { class: "share-words", textContent: words }),
-      met ? button("Use this plan", () => this.#use(request, found), { class: "primary" }) : "",
+      met ? button("Use this plan", () => this.#use(found), { class: "primary" }) : "",
       !met && form.policy !== "dependencies"
         ? button("Try with dependencies", () => {
             this.#useDependencies();
             this.#ask();
           })
         : "",
-      costCurve("Executions with a collision, by the cost of the margins", candidates),
+      costCurve("Executions with a collision or a deadlock, by the cost of the margins", candidates),
       tableOf(candidates),
       ...[...advice, ...warnings].map((text) => element("p", { class: "facts", textContent: text })),
     );
   }
 
-  #use(request, found) {
-    if (request !== this.#session.request) return;
-    this.#session.edit(withMargins(request, found));
+  #use(found) {
+    this.#session.edit(withMargins(this.#session.request, found));
     this.#session.adopt(found.plan);
     this.#session.announce("The plan with margins is shown. Undo returns to the plan before.");
   }
@@ -157,7 +156,7 @@ function tableOf(candidates) {
       element("td", { textContent: change(cost) }),
     ),
   );
-  const titles = ["Margins", "Collisions", "Flowtime"];
+  const titles = ["Margins", "Go wrong", "Flowtime"];
   const head = element(
     "tr",
     {},

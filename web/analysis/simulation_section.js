@@ -88,7 +88,7 @@ export class SimulationSection {
     const { answer } = this.#session;
     if (answer === this.#played && this.#session.hasPlan) return;
     this.#page.ghosts.show(null);
-    if (answer !== this.#plan) {
+    if (answer === null || answer !== this.#plan) {
       this.#robust.reset();
       this.#results.replaceChildren();
     }

@@ -2,7 +2,10 @@
 
 import { disturbanceOf } from "./simulation.js";
 
-/** The body of the request. `form`: see FIRST_FORM of simulations. `accepted`: the share of executions that may collide. */
+/**
+ * The body of the request. `form`: see FIRST_FORM of simulations. `accepted`: the share of executions that may have a
+ * collision or a deadlock.
+ */
 export function marginsOf(request, form, accepted) {
   const { policy, seed, maxDelay } = form;
   return {
@@ -16,8 +19,8 @@ export function marginsOf(request, form, accepted) {
 }
 
 /**
- * The candidates of an answer that were executed: [{options, runs, share, cost, isBest}]. `share` of their executions was bad,
- * `cost` is the increase of the flowtime over the base, as a share.
+ * The candidates of an answer that were executed: [{options, runs, share, cost, isBest}]. `share` of their executions
+ * had a collision or a deadlock; `cost` is the increase of the flowtime over the base, as a share.
  */
 export function candidatesOf({ tried, best }) {
   const base = tried[0].planned?.flowtime ?? 0;

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { pause, planned } from "../support/browser.js";
-import { hook, pagesFor } from "../support/on_page.js";
+import { hook, pagesFor, paste } from "../support/on_page.js";
 import { expectedPose } from "../support/expected_pose.js";
 
 const onPage = pagesFor();
@@ -137,6 +137,18 @@ test("a plan is made robust: margins are found, shown with their cost, and used"
     await page.keyboard.press("Control+z");
     await page.waitForFunction((flowtime) => window.fleetplan.answer?.flowtime === flowtime, before.flowtime);
     assert.deepEqual(await hook(page, "request"), request);
+  });
+});
+
+test("figures of a simulation do not outlast their plan", async () => {
+  await onPage(async (page) => {
+    await planned(page, "crossing");
+    await openAnalysis(page);
+    await page.getByRole("button", { name: "Simulate" }).click();
+    await page.waitForSelector(".robust");
+    await paste(page, await hook(page, "request")); // opened again, without a plan
+    await page.waitForFunction(() => window.fleetplan.answer === null);
+    assert.equal(await page.locator(".robust, .share-words").count(), 0);
   });
 });
 
